@@ -7,6 +7,9 @@
 
 namespace crashsim {
 
+/// Standard acceleration of gravity, one `g` [m/s^2].
+inline constexpr double kStandardGravity = 9.80665;
+
 /// What a number measures. `none` is a pure number, `unknown` a channel whose file does not say.
 enum class Dimension {
   unknown,
