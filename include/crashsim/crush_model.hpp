@@ -1,0 +1,65 @@
+#pragma once
+/// Phase I: crush of a vehicle against a rigid barrier, one degree of freedom.
+
+#include <string>
+#include <string_view>
+
+#include <crashsim/error.hpp>
+#include <crashsim/options.hpp>
+#include <crashsim/piecewise_linear.hpp>
+
+namespace crashsim {
+
+/// What the spring's ordinates are: stiffness, F_k = k(|x|) x, or force, F_k = f(|x|) sign(x).
+enum class CrushLaw { stiffness, force };
+inline constexpr std::string_view kCrushLawNames[] = {"stiffness", "force"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<CrushLaw>{kCrushLawNames};
+
+/// What a curve does beyond its last knot: hold the last ordinate, continue the last line, or end the run.
+enum class Extrapolation { constant, linear, error };
+inline constexpr std::string_view kExtrapolationNames[] = {"constant", "linear", "error"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<Extrapolation>{kExtrapolationNames};
+
+/// What the structure does after maximum crush: the same path back.
+enum class UnloadingKind { elastic };
+inline constexpr std::string_view kUnloadingKindNames[] = {"elastic"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<UnloadingKind>{kUnloadingKindNames};
+
+/// Behaviour after maximum crush.
+struct Unloading {
+  UnloadingKind kind = UnloadingKind::elastic;
+  bool bilateral =
+      false;  ///< False: contact is lost, for good, when the force would pull. True: the barrier pulls too.
+
+  bool operator==(const Unloading&) const = default;
+};
+
+/// One-degree-of-freedom crush, [Noorsumar2021] eq. (1)-(3):
+///     m x'' + F_k + F_c = 0,   F_k = k(|x|) x,   F_c = c(|v|) v,   x(0) = 0,   v(0) = impact speed
+/// x is crush [m], positive while the front shortens; v = x' [m/s], positive towards the barrier.
+struct CrushModel {
+  double mass_kg = kUnset;           ///< Test mass [kg], > 0.
+  double impact_speed_mps = kUnset;  ///< Speed it was identified at, the default of simulate() [m/s], > 0 or unset.
+  CrushLaw law = CrushLaw::stiffness;
+  Extrapolation extrapolation = Extrapolation::constant;
+  PiecewiseLinear spring;  ///< k(|x|): knots [m], ordinates [N/m] (law `force`: f(|x|) [N]), >= 0.
+  PiecewiseLinear damper;  ///< c(|v|): knots [m/s], ordinates [N s/m], >= 0.
+  Unloading unloading;
+};
+
+/// @throws InvalidInput naming the field, its value and the rule.
+void validate(const CrushModel& model);
+
+/// F_k(x) [N], extrapolated as the model says (`error` extrapolates as `constant` here).
+double spring_force(const CrushModel& model, double x);
+
+/// F_c(v) [N].
+double damper_force(const CrushModel& model, double v);
+
+/// Work of the spring from 0 to x, exactly [J].
+double spring_energy(const CrushModel& model, double x);
+
+}  // namespace crashsim

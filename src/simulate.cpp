@@ -1,0 +1,194 @@
+#include <crashsim/simulate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <crashsim/option_values.hpp>
+
+#include "solver/crush_motion.hpp"
+#include "solver/cvode_crush.hpp"
+#include "solver/taylor.hpp"
+
+namespace crashsim {
+namespace {
+
+constexpr double kDefaultEnd = 0.2;       // longer than any frontal crash [s]
+constexpr double kLocalTolerance = 1e-2;  // CVODE's global error is 10-300 times its local tolerance here
+constexpr int kTaylorDegree = 12;
+constexpr std::size_t kMaxSamples = 100'000'000;
+
+/// Samples the pieces of a motion at its output times.
+class Recorder {
+ public:
+  Recorder(const CrushProblem& problem, const SimulateOptions& options, CrushResponse& out)
+      : problem_(problem), options_(options), out_(out) {}
+
+  void on_piece(const Region& region, const StepPolynomial& step, double tau_end) {
+    const double t_end = step.base + tau_end;
+    for (double t = next_time(); t <= t_end; t = next_time()) record(region, step, std::min(t - step.base, tau_end));
+    last_ = step;
+    last_region_ = region;
+    last_tau_ = tau_end;
+  }
+
+  void on_event(const Region&, const Region& after, double x, double) {
+    if (after.separated && std::isnan(absorbed_at_separation_))
+      absorbed_at_separation_ = spring_energy(problem_.force, x) + last_.dissipated_at(last_tau_);
+  }
+
+  /// Adds the end of the motion unless it is a sample already.
+  void finish() {
+    const double t = last_.base + last_tau_;
+    const double least_gap = 1e-9 * options_.dt_s;
+    const bool on_grid = options_.times_s.empty();
+    if (out_.time_s.empty() || (on_grid && t - out_.time_s.back() > least_gap)) record(last_region_, last_, last_tau_);
+    const double v = last_.v_at(last_tau_);
+    out_.kinetic_energy_j = 0.5 * problem_.mass_kg * v * v;
+    out_.dissipated_energy_j = last_.dissipated_at(last_tau_);
+    out_.spring_energy_j = spring_energy(problem_.force, last_.x_at(last_tau_));
+    if (last_region_.separated) {
+      // Nothing pulls on the structure any more: what the spring held goes into the damper.
+      out_.spring_energy_j = 0.0;
+      out_.dissipated_energy_j = absorbed_at_separation_;
+    }
+  }
+
+ private:
+  [[nodiscard]] double next_time() const {
+    const std::size_t i = out_.time_s.size();
+    if (options_.times_s.empty()) return options_.dt_s * static_cast<double>(i);
+    return i < options_.times_s.size() ? options_.times_s[i] : std::numeric_limits<double>::infinity();
+  }
+
+  void record(const Region& region, const StepPolynomial& step, double tau) {
+    const RegionForce force = region_force(problem_, region);
+    const double x = step.x_at(tau), v = step.v_at(tau);
+    const double spring = value(force.spring, x), damper = value(force.damper, v);
+    const double absorbed =
+        region.separated ? absorbed_at_separation_ : spring_energy(problem_.force, x) + step.dissipated_at(tau);
+    const double half_mass = 0.5 * problem_.mass_kg;
+    out_.time_s.push_back(step.base + tau);
+    out_.displacement_m.push_back(x);
+    out_.velocity_mps.push_back(v);
+    out_.accel_mps2.push_back(-(spring + damper) / problem_.mass_kg);
+    out_.spring_force_n.push_back(spring);
+    out_.damper_force_n.push_back(damper);
+    out_.energy_residual_j.push_back(half_mass * (v * v - problem_.speed_mps * problem_.speed_mps) + absorbed);
+  }
+
+  const CrushProblem& problem_;
+  const SimulateOptions& options_;
+  CrushResponse& out_;
+  StepPolynomial last_;
+  Region last_region_;
+  double last_tau_ = 0.0;
+  double absorbed_at_separation_ = kUnset;
+};
+
+double end_time(const SimulateOptions& options) {
+  for (std::size_t i = 0; i < options.times_s.size(); ++i) {
+    const double before = i > 0 ? options.times_s[i - 1] : 0.0;
+    if (i > 0 ? options.times_s[i] <= before : options.times_s[i] < before)
+      throw InvalidInput(
+          fmt::format("SimulateOptions.times_s[{}] = {} s: times must increase from 0", i, options.times_s[i]));
+  }
+  if (!options.times_s.empty()) return options.times_s.back();
+  return std::isnan(options.end_time_s) ? kDefaultEnd : options.end_time_s;
+}
+
+std::size_t sample_count(const SimulateOptions& options, double end_time_s) {
+  if (!options.times_s.empty()) return options.times_s.size();
+  const double samples = end_time_s / options.dt_s + 2.0;
+  if (samples > static_cast<double>(kMaxSamples))
+    throw InvalidInput(
+        fmt::format("SimulateOptions.dt_s = {} s: {:.3g} samples to {} s are more than {}: choose a larger interval",
+                    options.dt_s, samples, end_time_s, kMaxSamples));
+  return static_cast<std::size_t>(samples);
+}
+
+void reserve(CrushResponse& out, std::size_t samples) {
+  for (auto* column : {&out.time_s, &out.accel_mps2, &out.velocity_mps, &out.displacement_m, &out.spring_force_n,
+                       &out.damper_force_n, &out.energy_residual_j})
+    column->reserve(samples);
+}
+
+MotionSummary run(const CrushProblem& problem, const SimulateOptions& options, double end_time_s, Recorder& recorder,
+                  SolverStatistics& statistics) {
+  if (options.integrator == Integrator::taylor) {
+    TaylorStepper stepper(options.rtol * kLocalTolerance, kTaylorDegree, true);
+    const MotionSummary summary = integrate_motion(problem, end_time_s, options.to_max_crush, stepper, recorder);
+    statistics.force_evaluations = summary.steps * kTaylorDegree;
+    return summary;
+  }
+  CvodeStepper stepper(std::max(options.rtol * kLocalTolerance, 1e-14));
+  const MotionSummary summary = integrate_motion(problem, end_time_s, options.to_max_crush, stepper, recorder);
+  statistics.force_evaluations = stepper.rhs_evaluations();
+  return summary;
+}
+
+void judge(const MotionSummary& summary, const CrushProblem& problem, CrushResponse& out) {
+  out.t_m_s = summary.t_m_s;
+  out.max_crush_m = summary.max_crush_m;
+  out.separation_s = summary.separation_s;
+  out.static_crush_m = summary.static_crush_m;
+  out.rebound_velocity_mps = summary.rebound_velocity_mps;
+  out.statistics.steps = summary.steps;
+  out.statistics.events = summary.events;
+  if (summary.end == MotionEnd::left_knot_range) {
+    out.outcome = CrushOutcome::left_knot_range;
+    out.message = fmt::format(
+        "at t = {:.6g} s the motion left the knots (x = {:.6g} m, v = {:.6g} m/s) and extrapolation is 'error': extend "
+        "the curves or choose extrapolation 'constant'",
+        summary.end_time_s, out.displacement_m.back(), out.velocity_mps.back());
+  } else if (summary.end == MotionEnd::step_limit) {
+    out.outcome = CrushOutcome::step_limit;
+    out.message = fmt::format("{} steps reached only t = {:.6g} s: loosen rtol or check the model's ordinates",
+                              summary.steps, summary.end_time_s);
+  } else if (std::isnan(summary.t_m_s)) {
+    out.outcome = CrushOutcome::no_max_crush;
+    out.message = fmt::format(
+        "no maximum crush: v did not reach zero within 0..{:.6g} s (v = {:.6g} m/s at the end, from {:.6g} m/s): "
+        "simulate longer, or the structure is too weak",
+        summary.end_time_s, out.velocity_mps.back(), problem.speed_mps);
+  } else {
+    out.outcome = CrushOutcome::completed;
+  }
+}
+
+}  // namespace
+
+CrushResponse simulate(const CrushModel& model, const SimulateOptions& options) {
+  validate(model);
+  validate_options(options, "SimulateOptions");
+  CrushResponse out;
+  out.impact_speed_mps = std::isnan(options.impact_speed_mps) ? model.impact_speed_mps : options.impact_speed_mps;
+  if (std::isnan(out.impact_speed_mps))
+    throw InvalidInput("SimulateOptions.impact_speed_mps: not given, and the model has none: give a speed");
+  const double end_time_s = end_time(options);
+  reserve(out, sample_count(options, end_time_s));
+
+  const CrushForce force = make_force(model);
+  const CrushProblem problem{force, model.mass_kg, out.impact_speed_mps, model.unloading.bilateral};
+  Recorder recorder(problem, options, out);
+  try {
+    const MotionSummary summary = run(problem, options, end_time_s, recorder, out.statistics);
+    recorder.finish();
+    judge(summary, problem, out);
+  } catch (const SolverError& error) {
+    out.outcome = CrushOutcome::failed;
+    out.message = error.what();
+  }
+  return out;
+}
+
+std::string CrushResponse::brief_report() const {
+  if (outcome == CrushOutcome::not_run) return "not run";
+  if (!usable()) return fmt::format("{}: {}", name_of(outcome), message);
+  return fmt::format("maximum crush {:.4f} m at {:.2f} ms from {:.3f} m/s ({} steps)", max_crush_m, 1e3 * t_m_s,
+                     impact_speed_mps, statistics.steps);
+}
+
+}  // namespace crashsim

@@ -1,0 +1,119 @@
+#include "solver/crush_events.hpp"
+
+namespace crashsim {
+namespace {
+
+constexpr double kForceRounding = 1e-13;  // relative to the terms the force is the sum of
+
+constexpr double kKnotRounding = 1e-13;  // relative to the impact speed
+
+double magnitude(const Quadratic& c, double s) {
+  return std::fabs(c[0]) + std::fabs(s) * (std::fabs(c[1]) + std::fabs(s * c[2]));
+}
+
+/// Force of a region at a state; what rounding leaves of it is zero.
+double contact_force(const RegionForce& force, double x, double v) {
+  const double sum = value(force.spring, x) + value(force.damper, v);
+  const double rounding = kForceRounding * (magnitude(force.spring, x) + magnitude(force.damper, v));
+  return std::fabs(sum) > rounding ? sum : 0.0;
+}
+
+/// First time in a step at which the force changes sign, or `to`.
+struct SignChange {
+  double tau;
+  bool pulls_at_once;  ///< Negative from the start.
+};
+SignChange sign_change(const RegionForce& force, const StepPolynomial& step) {
+  const auto at = [&](double tau) { return contact_force(force, step.x_at(tau), step.v_at(tau)); };
+  const auto slope = [&](double tau) {
+    const double x = step.x_at(tau), v = step.v_at(tau);
+    return (force.spring[1] + 2.0 * force.spring[2] * x) * v +
+           (force.damper[1] + 2.0 * force.damper[2] * v) * horner_derivative(step.v, step.degree, tau);
+  };
+  double start = step.from;
+  double first = at(start);
+  if (first == 0.0) {  // just turned, or no force yet: what comes next decides
+    start += (step.to - step.from) / 64.0;
+    first = at(start);
+  }
+  if (first == 0.0) return {step.to, false};
+  const double sign = first > 0.0 ? 1.0 : -1.0;
+  double end = step.to;
+  if (sign * at(end) >= 0.0) {
+    // An excursion inside the step shows as a minimum of the signed force.
+    if (!(sign * slope(start) < 0.0 && sign * slope(end) > 0.0)) return {step.to, sign < 0.0};
+    double low = start, high = end;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (sign * slope(middle) < 0.0 ? low : high) = middle;
+    }
+    end = low;
+    if (sign * at(end) >= 0.0) return {step.to, sign < 0.0};
+  }
+  const auto f = [&](double tau) {
+    return ValueAndDerivative{value(force.spring, step.x_at(tau)) + value(force.damper, step.v_at(tau)), slope(tau)};
+  };
+  return {bracketed_root(f, start, end), sign < 0.0};
+}
+
+/// Narrows `event` to the time the polynomial `c` reaches a bound of its segment, if it does until event.tau. `margin`
+/// is the distance that rounding alone makes: nearer to a knot is at it.
+void cross_bounds(const ForceAxis& axis, int segment, const Coefficients& c, double margin, const StepPolynomial& step,
+                  EventKind kind, Event& event) {
+  const double end = horner(c, step.degree, event.tau);
+  // A force that vanishes exactly at a knot changes sign there only in the segment it leaves: the knot comes first.
+  const double slope = event.kind == EventKind::none ? 0.0 : horner_derivative(c, step.degree, event.tau);
+  const bool below = end < axis.lower(segment) + (slope < 0.0 ? margin : -margin);
+  if (!below && !(end > axis.upper(segment) - (slope > 0.0 ? margin : -margin))) return;
+  const double level = below ? axis.lower(segment) : axis.upper(segment);
+  const double side = below ? 1.0 : -1.0;  // positive times distance: not yet there
+  const double start = side * (horner(c, step.degree, step.from) - level);
+  double tau = event.tau;
+  if (start <= 0.0)
+    tau = step.from;
+  else if (side * (end - level) < 0.0)
+    tau = bracketed_root(
+        [&](double s) {
+          return ValueAndDerivative{horner(c, step.degree, s) - level, horner_derivative(c, step.degree, s)};
+        },
+        step.from, event.tau);
+  event = {kind, tau, below ? -1 : +1, level};
+}
+
+}  // namespace
+
+RegionForce region_force(const CrushProblem& problem, const Region& region) {
+  if (region.separated) return {};
+  return {problem.force.spring_polynomials[static_cast<std::size_t>(region.spring)],
+          problem.force.damper_polynomials[static_cast<std::size_t>(region.damper)]};
+}
+
+Region initial_region(const CrushProblem& problem) {
+  // v starts on a knot and can only decrease: its segment is the one below.
+  return {problem.force.spring.locate(0.0, +1), problem.force.damper.locate(problem.speed_mps, -1), false};
+}
+
+Event first_event(const CrushProblem& problem, const Region& region, const StepPolynomial& step) {
+  Event event{EventKind::none, step.to, 0, 0.0};
+  if (region.separated) return event;
+  const SignChange change = sign_change(region_force(problem, region), step);
+  if (!problem.bilateral && change.pulls_at_once)
+    event = {EventKind::separation, step.from, 0, 0.0};
+  else if (change.tau < step.to)
+    event = {problem.bilateral ? EventKind::turn : EventKind::separation, change.tau, 0, 0.0};
+  const double margin = kKnotRounding * problem.speed_mps;
+  cross_bounds(problem.force.damper, region.damper, step.v, margin, step, EventKind::damper_knot, event);
+  cross_bounds(problem.force.spring, region.spring, step.x, margin * kCrashTime, step, EventKind::spring_knot, event);
+  return event;
+}
+
+Region next_region(const CrushProblem& problem, const Region& region, const Event& event, double x, double v) {
+  Region next = region;
+  if (event.kind == EventKind::spring_knot) next.spring += event.direction;
+  if (event.kind == EventKind::damper_knot) next.damper += event.direction;
+  next.separated = event.kind == EventKind::separation ||
+                   (!problem.bilateral && contact_force(region_force(problem, next), x, v) < 0.0);
+  return next;
+}
+
+}  // namespace crashsim

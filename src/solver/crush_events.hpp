@@ -1,0 +1,50 @@
+#pragma once
+/// Where the motion is on the force's segments, and what ends a step early.
+
+#include "solver/crush_force.hpp"
+#include "solver/step_polynomial.hpp"
+
+namespace crashsim {
+
+inline constexpr double kCrashTime = 0.05;  ///< Typical duration [s]: makes a length of the impact speed.
+
+/// The problem: m v' = -F(x, v), x' = v, x(0) = 0, v(0) = speed.
+struct CrushProblem {
+  const CrushForce& force;
+  double mass_kg;
+  double speed_mps;
+  bool bilateral;
+};
+
+/// Segments the motion is in. Inside one region the force is one polynomial of x and v.
+struct Region {
+  int spring = 0, damper = 0;
+  bool separated = false;  ///< Contact is lost: no force any more.
+};
+
+/// Polynomials of a region, none when separated.
+struct RegionForce {
+  Quadratic spring{}, damper{};
+};
+RegionForce region_force(const CrushProblem& problem, const Region& region);
+
+enum class EventKind { none, spring_knot, damper_knot, turn, separation };
+
+/// What ends a step at `tau`.
+struct Event {
+  EventKind kind = EventKind::none;
+  double tau = 0.0;
+  int direction = 0;   ///< Of the crossing: +1 or -1.
+  double level = 0.0;  ///< Exact value of the variable that reached a knot.
+};
+
+/// Region at impact.
+Region initial_region(const CrushProblem& problem);
+
+/// First event of a step taken with the force of `region`; `none` at the step's end otherwise.
+Event first_event(const CrushProblem& problem, const Region& region, const StepPolynomial& step);
+
+/// Region after an event at state (x, v). A force that jumps to a pull loses contact.
+Region next_region(const CrushProblem& problem, const Region& region, const Event& event, double x, double v);
+
+}  // namespace crashsim

@@ -1,0 +1,74 @@
+#pragma once
+/// The motion from impact, step by step, with every knot, turning point and separation met exactly. Integrators differ
+/// only in how they make a step.
+
+#include "solver/crush_events.hpp"
+
+namespace crashsim {
+
+/// Why a motion ended.
+enum class MotionEnd { end_time, max_crush, left_knot_range, step_limit };
+
+struct MotionSummary {
+  MotionEnd end = MotionEnd::end_time;
+  double t_m_s = kUnset, max_crush_m = kUnset;
+  double separation_s = kUnset, static_crush_m = kUnset, rebound_velocity_mps = kUnset;
+  double end_time_s = 0.0;
+  long steps = 0, events = 0;
+};
+
+inline constexpr long kStepLimit = 100'000;  // a crash takes some tens to some thousands
+
+/// Integrates to `end_time_s`, or to maximum crush when `to_max_crush`.
+/// Stepper: `restart(problem, region, t, x, v, dissipated)`, `const StepPolynomial& advance(end_time)`.
+/// Visitor: `on_piece(region, step, tau_end)` for every smooth piece, `on_event(before, after, x, v)` between pieces.
+template <class Stepper, class Visitor>
+MotionSummary integrate_motion(const CrushProblem& problem, double end_time_s, bool to_max_crush, Stepper& stepper,
+                               Visitor& visitor) {
+  MotionSummary summary;
+  Region region = initial_region(problem);
+  stepper.restart(problem, region, 0.0, 0.0, problem.speed_mps, 0.0);
+  while (summary.steps < kStepLimit) {
+    const StepPolynomial& step = stepper.advance(end_time_s);
+    ++summary.steps;
+    const Event event = first_event(problem, region, step);
+    visitor.on_piece(region, step, event.tau);
+    const double t = step.base + event.tau;
+    summary.end_time_s = t;
+    if (event.kind == EventKind::none) {
+      if (t >= end_time_s) return summary;
+      continue;
+    }
+    ++summary.events;
+    // A knot that was reached is reached exactly, so that no rounding can cross it twice.
+    const double x = event.kind == EventKind::spring_knot ? event.level : step.x_at(event.tau);
+    const double v = event.kind == EventKind::damper_knot ? event.level : step.v_at(event.tau);
+    const Region before = region;
+    region = next_region(problem, before, event, x, v);
+    visitor.on_event(before, region, x, v);
+    if (event.kind == EventKind::damper_knot && event.level == 0.0 && event.direction < 0 &&
+        std::isnan(summary.t_m_s)) {
+      summary.t_m_s = t;
+      summary.max_crush_m = x;
+      if (to_max_crush) {
+        summary.end = MotionEnd::max_crush;
+        return summary;
+      }
+    }
+    if (region.separated) {
+      summary.separation_s = t;
+      summary.static_crush_m = x;
+      summary.rebound_velocity_mps = v;
+    }
+    if (problem.force.spring.forbidden(region.spring) || problem.force.damper.forbidden(region.damper)) {
+      summary.end = MotionEnd::left_knot_range;
+      return summary;
+    }
+    if (t >= end_time_s) return summary;
+    stepper.restart(problem, region, t, x, v, step.dissipated_at(event.tau));
+  }
+  summary.end = MotionEnd::step_limit;
+  return summary;
+}
+
+}  // namespace crashsim

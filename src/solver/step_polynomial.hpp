@@ -1,0 +1,60 @@
+#pragma once
+/// Dense output of one integration step, and roots of what it describes.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace crashsim {
+
+inline constexpr int kMaxDegree = 16;  ///< Taylor orders up to 16; Adams methods reach 12.
+using Coefficients = std::array<double, kMaxDegree + 1>;
+
+/// sum_k c[k] tau^k.
+inline double horner(const Coefficients& c, int degree, double tau) {
+  double sum = c[static_cast<std::size_t>(degree)];
+  for (int k = degree - 1; k >= 0; --k) sum = sum * tau + c[static_cast<std::size_t>(k)];
+  return sum;
+}
+
+/// Derivative of horner().
+inline double horner_derivative(const Coefficients& c, int degree, double tau) {
+  double sum = 0.0;
+  for (int k = degree; k >= 1; --k) sum = sum * tau + k * c[static_cast<std::size_t>(k)];
+  return sum;
+}
+
+/// Crush, velocity and dissipated energy as polynomials in tau = t - base, valid for from <= tau <= to.
+struct StepPolynomial {
+  double base = 0.0, from = 0.0, to = 0.0;
+  int degree = 0;
+  Coefficients x{}, v{}, dissipated{};
+
+  [[nodiscard]] double x_at(double tau) const { return horner(x, degree, tau); }
+  [[nodiscard]] double v_at(double tau) const { return horner(v, degree, tau); }
+  [[nodiscard]] double dissipated_at(double tau) const { return horner(dissipated, degree, tau); }
+};
+
+/// Root in [low, high] of a function that changes sign once there: Newton's method, with bisection where it would leave
+/// the bracket. `f(t)` returns {value, derivative}.
+template <class F>
+double bracketed_root(F f, double low, double high) {
+  const bool rising = f(high).value > 0.0;
+  double t = 0.5 * (low + high);
+  for (int i = 0; i < 100; ++i) {
+    const auto at = f(t);
+    if (at.value == 0.0) return t;
+    ((at.value > 0.0) == rising ? high : low) = t;
+    const double newton = t - at.value / at.derivative;
+    const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (next == t || std::fabs(next - t) <= 1e-16 * std::fabs(high)) return next;
+    t = next;
+  }
+  return t;
+}
+
+struct ValueAndDerivative {
+  double value, derivative;
+};
+
+}  // namespace crashsim

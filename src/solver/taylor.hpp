@@ -1,0 +1,32 @@
+#pragma once
+/// Taylor-series integrator of the crush model. Between knots the force is quadratic in x and v, so that the
+/// coefficients of the motion follow from a short recurrence.
+
+#include "solver/crush_events.hpp"
+
+namespace crashsim {
+
+/// Series of x and v about a state, m v' = -(spring(x) + damper(v)): coefficients 0..degree.
+void taylor_series(const RegionForce& force, double mass_kg, double x, double v, int degree, StepPolynomial& step);
+
+/// Stepper for integrate_motion().
+class TaylorStepper {
+ public:
+  /// @param tolerance error of a step relative to the impact speed.
+  TaylorStepper(double tolerance, int degree, bool with_energy)
+      : tolerance_(tolerance), degree_(degree), with_energy_(with_energy) {}
+
+  void restart(const CrushProblem& problem, const Region& region, double t, double x, double v, double dissipated);
+  const StepPolynomial& advance(double end_time_s);
+
+ private:
+  double tolerance_;
+  int degree_;
+  bool with_energy_;
+  double mass_kg_ = 0.0, speed_mps_ = 0.0;
+  RegionForce force_;
+  double t_ = 0.0, x_ = 0.0, v_ = 0.0, dissipated_ = 0.0;
+  StepPolynomial step_;
+};
+
+}  // namespace crashsim
