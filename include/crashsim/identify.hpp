@@ -1,0 +1,167 @@
+#pragma once
+/// Identification of a crush model from pulses, [Noorsumar2021] eq. (4).
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <crashsim/crush_model.hpp>
+#include <crashsim/error.hpp>
+#include <crashsim/options.hpp>
+#include <crashsim/pulse.hpp>
+
+namespace crashsim {
+
+/// Penalty on a residual r (relative to its channel's maximum): |r|, r^2, or Huber's with threshold 0.05.
+enum class Loss { l1, l2, huber };
+inline constexpr std::string_view kLossNames[] = {"l1", "l2", "huber"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<Loss>{kLossNames};
+
+/// Weights of acceleration, velocity and displacement: 1/(N max|target|) each, the paper's 1 in SI, or three numbers.
+enum class Weights { normalised, paper, given };
+inline constexpr std::string_view kWeightsNames[] = {"normalised", "paper", "given"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<Weights>{kWeightsNames};
+
+/// Where knots are put on [0, C] and [0, v0]: evenly, at quantiles of the samples, or at given fractions of the range.
+enum class KnotPlacement { uniform, quantile, given };
+inline constexpr std::string_view kKnotPlacementNames[] = {"uniform", "quantile", "given"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<KnotPlacement>{kKnotPlacementNames};
+
+/// Multistart optimisation of the output error, or the linear least-squares problem in the measured motion.
+enum class IdentifyMethod { multistart, equation_error };
+inline constexpr std::string_view kIdentifyMethodNames[] = {"multistart", "equation-error"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<IdentifyMethod>{kIdentifyMethodNames};
+
+/// NLopt's gradient-based algorithms that handle bounds.
+enum class Algorithm { lbfgs, slsqp, tnewton, var2 };
+inline constexpr std::string_view kAlgorithmNames[] = {"lbfgs", "slsqp", "tnewton", "var2"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<Algorithm>{kAlgorithmNames};
+
+/// How to identify.
+struct IdentifyOptions {
+  double mass_kg = kUnset;  ///< Unset: the pulse's.
+  int starts = 100;         ///< Optimisations from different initial values; start 0 is the equation-error solution.
+  std::uint64_t seed = 1;
+  Loss loss = Loss::l1;
+  Setting<Weights> weights;
+  CrushLaw law = CrushLaw::stiffness;
+  int spring_knots = 7;
+  int damper_knots = 7;
+  Setting<KnotPlacement> knots;  ///< Given: crush knots [m], the first 0; damper knots keep the same fractions.
+  IdentifyMethod method = IdentifyMethod::multistart;
+  Algorithm algorithm = Algorithm::lbfgs;
+  double spring_upper = kUnset;  ///< Upper bound of spring ordinates; unset: from the data.
+  double damper_upper = kUnset;  ///< Upper bound of damper ordinates; unset: from the data.
+  int jobs = 0;                  ///< Threads; 0: all cores. The result does not depend on it.
+  double smooth = 0.0;           ///< Weight of squared second differences of the ordinates.
+
+  bool operator==(const IdentifyOptions&) const = default;
+};
+inline constexpr std::array<Field<IdentifyOptions>, 15> kIdentifyFields = {{
+    {"mass_kg", "mass", "kg", "test mass; default: the pulse's", &IdentifyOptions::mass_kg, positive()},
+    {"starts", "starts", "", "number of starts", &IdentifyOptions::starts, between(1, 1e6)},
+    {"seed", "seed", "", "seed of the random starts", &IdentifyOptions::seed},
+    {"loss", "loss", "", "penalty on residuals", choice<&IdentifyOptions::loss>()},
+    {"weights", "weights", "", "weights of acceleration, velocity, displacement", setting<&IdentifyOptions::weights>()},
+    {"law", "law", "", "what the spring's ordinates are", choice<&IdentifyOptions::law>()},
+    {"spring_knots", "spring-knots", "", "knots of the spring; 0: no spring", &IdentifyOptions::spring_knots,
+     between(0, 100)},
+    {"damper_knots", "damper-knots", "", "knots of the damper; 0: no damper", &IdentifyOptions::damper_knots,
+     between(0, 100)},
+    {"knots", "knots", "", "placement of the knots: uniform, quantile, or spring knots in m (dampers alike)",
+     setting<&IdentifyOptions::knots>()},
+    {"method", "method", "", "multistart optimisation, or equation error alone", choice<&IdentifyOptions::method>()},
+    {"algorithm", "algorithm", "", "NLopt algorithm", choice<&IdentifyOptions::algorithm>()},
+    {"spring_upper", "spring-upper", "", "upper bound of spring ordinates [N/m or N]; default from the data",
+     &IdentifyOptions::spring_upper, positive()},
+    {"damper_upper", "damper-upper", "", "upper bound of damper ordinates [N s/m]; default from the data",
+     &IdentifyOptions::damper_upper, positive()},
+    {"jobs", "jobs", "", "threads; 0: all cores", &IdentifyOptions::jobs, between(0, 1024)},
+    {"smooth", "smooth", "", "weight of squared second differences of the ordinates", &IdentifyOptions::smooth,
+     at_least(0.0)},
+}};
+template <>
+inline constexpr std::span<const Field<IdentifyOptions>> fields<IdentifyOptions>{kIdentifyFields};
+
+/// Sum of the channels' errors, [Noorsumar2021] eq. (4).
+struct FitError {
+  double total = kUnset;
+  double accel = kUnset, velocity = kUnset, displacement = kUnset;
+};
+
+/// How far the ordinates can be believed.
+struct Verdict {
+  bool identifiable = false;
+  int rank = 0;                          ///< Numerical rank of the sensitivity matrix.
+  double condition = kUnset;             ///< Condition number with columns scaled to unit length.
+  double spring_damper_cosine = kUnset;  ///< Largest cosine between the spring's and the damper's column spaces.
+  std::string message;                   ///< In words.
+};
+
+/// One ordinate of the result: spring first, then damper.
+struct OrdinateReport {
+  std::string name;                ///< "k1".."kn", "c1".."cn".
+  double value = kUnset;           ///< [N/m], [N] or [N s/m].
+  double standard_error = kUnset;  ///< Unset when the data say nothing about it.
+  double upper_bound = kUnset;
+  bool untouched = false;  ///< No sample depends on it: not fitted.
+  bool at_bound = false;   ///< At a bound.
+};
+
+/// One start.
+struct StartReport {
+  double error = kUnset;  ///< E reached; infinite when it failed.
+  int evaluations = 0;
+  bool failed = false;
+};
+
+/// How an identification ended.
+enum class IdentifyOutcome { not_run, completed, interrupted, every_start_failed, engines_disagree };
+inline constexpr std::string_view kIdentifyOutcomeNames[] = {"not_run", "completed", "interrupted",
+                                                             "every_start_failed", "engines_disagree"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<IdentifyOutcome>{kIdentifyOutcomeNames};
+
+/// What an identification gives.
+struct Identification {
+  IdentifyOutcome outcome = IdentifyOutcome::not_run;
+  std::string message;
+  CrushModel model;  ///< The best model.
+  FitError error;    ///< Its E, from the model as CVODE simulates it.
+  Verdict verdict;
+  std::vector<OrdinateReport> ordinates;
+  std::vector<std::vector<double>> correlation;  ///< Between ordinates, in their order; unset where meaningless.
+  std::vector<StartReport> starts;
+  int starts_at_best = 0;   ///< Starts with E within 0.1 % of the best.
+  long evaluations = 0;     ///< Of the objective, with gradient.
+  double seconds = kUnset;  ///< Wall time.
+  std::uint64_t seed = 0;
+  std::vector<std::string> warnings;
+
+  [[nodiscard]] bool usable() const { return outcome == IdentifyOutcome::completed; }
+  [[nodiscard]] std::string brief_report() const;
+};
+
+/// Called now and then from the calling thread with starts done and planned; false stops the identification.
+using Progress = std::function<bool(int done, int total)>;
+
+/// Identifies spring and damper from pulses of one structure.
+/// @throws InvalidInput on bad options, a pulse without t_m, or without mass.
+Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& options = {},
+                        const Progress& progress = {});
+Identification identify(const Pulse& pulse, const IdentifyOptions& options = {}, const Progress& progress = {});
+
+/// E of a model against a pulse over the pulse's own samples 0..t_m, simulated by CVODE.
+FitError fit_error(const CrushModel& model, const Pulse& pulse, const Setting<Weights>& weights = {},
+                   Loss loss = Loss::l1);
+
+}  // namespace crashsim

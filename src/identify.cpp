@@ -1,0 +1,241 @@
+#include <crashsim/identify.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <crashsim/option_values.hpp>
+#include <crashsim/simulate.hpp>
+
+#include "optimize/equation_error.hpp"
+#include "optimize/multistart.hpp"
+#include "optimize/verdict.hpp"
+
+namespace crashsim {
+namespace {
+
+constexpr double kBest = 1e-3;         // starts within this of the best E, relative, are at the best
+constexpr double kAgreement = 1e-6;    // between the Taylor kernel's E and CVODE's
+constexpr double kBoundFactor = 2.0;   // spring or damper alone may carry this much of the measured force
+constexpr double kRecordRtol = 1e-10;  // of the simulation E is reported from
+
+std::vector<double> quantile_knots(std::vector<double> samples, double last, int count) {
+  std::sort(samples.begin(), samples.end());
+  std::vector<double> knots = uniform_knots(last, count);
+  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+    const double position =
+        static_cast<double>(i) / static_cast<double>(knots.size() - 1) * static_cast<double>(samples.size() - 1);
+    knots[i] = samples[static_cast<std::size_t>(position)];
+  }
+  return knots;
+}
+
+void check_given_knots(const std::vector<double>& knots) {
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    if (i == 0 ? knots[i] != 0.0 : knots[i] <= knots[i - 1])
+      throw InvalidInput(
+          fmt::format("IdentifyOptions.knots[{}] = {} m: knots must start at 0 and increase strictly", i, knots[i]));
+}
+
+FitStructure make_structure(const IdentifyOptions& options, std::span<const FitTarget> targets) {
+  double crush = 0.0, speed = 0.0;
+  std::vector<double> x, v;
+  for (const FitTarget& target : targets) {
+    crush = std::max(crush, target.max_crush_m);
+    speed = std::max(speed, target.impact_speed_mps);
+    x.insert(x.end(), target.displacement_m.begin(), target.displacement_m.end());
+    v.insert(v.end(), target.velocity_mps.begin(), target.velocity_mps.end());
+  }
+  FitStructure structure{options.law, {}, {}};
+  switch (options.knots.rule) {
+    case KnotPlacement::uniform:
+      structure.spring_knots = uniform_knots(crush, options.spring_knots);
+      structure.damper_knots = uniform_knots(speed, options.damper_knots);
+      break;
+    case KnotPlacement::quantile:
+      structure.spring_knots = quantile_knots(x, crush, options.spring_knots);
+      structure.damper_knots = quantile_knots(v, speed, options.damper_knots);
+      break;
+    case KnotPlacement::given:
+      check_given_knots(options.knots.numbers);
+      if (options.spring_knots > 0) structure.spring_knots = options.knots.numbers;
+      if (options.damper_knots > 0)
+        for (const double knot : options.knots.numbers)
+          structure.damper_knots.push_back(
+              options.knots.numbers.size() > 1 ? knot / options.knots.numbers.back() * speed : 0.0);
+  }
+  if (structure.size() == 0)
+    throw InvalidInput("IdentifyOptions.spring_knots = 0 and damper_knots = 0: there is nothing to identify");
+  return structure;
+}
+
+/// Upper bounds of one curve: what its hat alone needs to carry kBoundFactor times the measured force, wherever the hat
+/// stands for at least a quarter of its range from 0 (nearer the ratio force/s says nothing).
+void bound_curve(const std::vector<double>& knots, bool multiplied, std::span<const FitTarget> targets,
+                 std::vector<double> FitTarget::*variable, double fallback, Eigen::Ref<Eigen::VectorXd> upper) {
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const double low = i > 0 ? knots[i - 1] : 0.0;
+    const double high = i + 1 < knots.size() ? knots[i + 1] : std::numeric_limits<double>::infinity();
+    const double least = knots.size() > 1 ? 0.25 * knots[1] : 0.0;
+    double bound = 0.0;
+    for (const FitTarget& target : targets)
+      for (std::size_t j = 0; j < target.time_s.size(); ++j) {
+        const double s = (target.*variable)[j];
+        if (s < low || s > high || s <= least) continue;
+        const double force = target.mass_kg * std::fabs(target.accel_mps2[j]);
+        bound = std::max(bound, multiplied ? force / s : force);
+      }
+    upper[static_cast<Eigen::Index>(i)] = kBoundFactor * (bound > 0.0 ? bound : fallback);
+  }
+}
+
+Eigen::VectorXd upper_bounds(const FitStructure& structure, const IdentifyOptions& options,
+                             std::span<const FitTarget> targets) {
+  const auto springs = static_cast<Eigen::Index>(structure.spring_knots.size());
+  const auto dampers = static_cast<Eigen::Index>(structure.damper_knots.size());
+  const ForceScale scale = force_scale(structure.law, targets);
+  Eigen::VectorXd upper(springs + dampers);
+  bound_curve(structure.spring_knots, structure.law == CrushLaw::stiffness, targets, &FitTarget::displacement_m,
+              scale.spring, upper.head(springs));
+  bound_curve(structure.damper_knots, true, targets, &FitTarget::velocity_mps, scale.damper, upper.tail(dampers));
+  if (!std::isnan(options.spring_upper)) upper.head(springs).setConstant(options.spring_upper);
+  if (!std::isnan(options.damper_upper)) upper.tail(dampers).setConstant(options.damper_upper);
+  return upper;
+}
+
+FitError channel_errors(const CrushResponse& run, const FitTarget& target, Loss loss) {
+  const auto sum = [&](const std::vector<double>& model, const std::vector<double>& data, double scale) {
+    double total = 0.0;
+    for (std::size_t i = 0; i < data.size(); ++i) total += loss_value(loss, scale * (model[i] - data[i]), 0.0).value;
+    return target.factor * total;
+  };
+  FitError error;
+  error.accel = sum(run.accel_mps2, target.accel_mps2, target.accel_scale);
+  error.velocity = sum(run.velocity_mps, target.velocity_mps, target.velocity_scale);
+  error.displacement = sum(run.displacement_m, target.displacement_m, target.displacement_scale);
+  error.total = error.accel + error.velocity + error.displacement;
+  return error;
+}
+
+FitError error_of_record(const CrushModel& model, const FitTarget& target, Loss loss) {
+  CrushModel tested = model;
+  tested.mass_kg = target.mass_kg;
+  SimulateOptions options;
+  options.impact_speed_mps = target.impact_speed_mps;
+  options.times_s = target.time_s;
+  options.rtol = kRecordRtol;
+  const CrushResponse run = simulate(tested, options);
+  if (run.time_s.size() != target.time_s.size())
+    throw NumericalFailure("CVODE could not simulate the model: " + run.message);
+  return channel_errors(run, target, loss);
+}
+
+FitError mean_error(const CrushModel& model, std::span<const FitTarget> targets, Loss loss) {
+  FitError mean{0.0, 0.0, 0.0, 0.0};
+  const double weight = 1.0 / static_cast<double>(targets.size());
+  for (const FitTarget& target : targets) {
+    const FitError error = error_of_record(model, target, loss);
+    mean.total += weight * error.total;
+    mean.accel += weight * error.accel;
+    mean.velocity += weight * error.velocity;
+    mean.displacement += weight * error.displacement;
+  }
+  return mean;
+}
+
+/// Index of the best start, -1 when all failed; ties go to the first.
+int best_start(const std::vector<StartResult>& results) {
+  int best = -1;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const StartReport& report = results[i].report;
+    if (report.evaluations == 0 || report.failed) continue;
+    if (best < 0 || report.error < results[static_cast<std::size_t>(best)].report.error) best = static_cast<int>(i);
+  }
+  return best;
+}
+
+void judge(const FitStructure& structure, std::span<const FitTarget> targets, const IdentifyOptions& options,
+           const Eigen::VectorXd& upper, std::span<const double> parameters, Identification& out) {
+  FitObjective objective(structure, targets, options.loss, options.smooth);
+  const double kernel_error = objective.evaluate(parameters, 0.0, {});
+  FitObjective without_smooth(structure, targets, options.loss, 0.0);
+  out.error = mean_error(out.model, targets, options.loss);
+  const double plain_error = options.smooth > 0.0 ? without_smooth.evaluate(parameters, 0.0, {}) : kernel_error;
+  if (std::fabs(plain_error - out.error.total) > kAgreement * std::max(out.error.total, 1e-3)) {
+    out.outcome = IdentifyOutcome::engines_disagree;
+    out.message =
+        fmt::format("the Taylor kernel's E = {:.10g} and CVODE's E = {:.10g} disagree: the model is not usable",
+                    plain_error, out.error.total);
+  }
+  const Eigen::MatrixXd jacobian = objective.jacobian(parameters);
+  FitObjective squared(structure, targets, Loss::l2, 0.0);
+  const double freedom = std::max<double>(1.0, static_cast<double>(jacobian.rows() - jacobian.cols()));
+  const double variance = squared.evaluate(parameters, 0.0, {}) * static_cast<double>(targets.size()) / freedom;
+  Identifiability found = judge_identifiability(structure, parameters, upper, jacobian, variance, targets.size());
+  out.verdict = std::move(found.verdict);
+  out.ordinates = std::move(found.ordinates);
+  out.correlation = std::move(found.correlation);
+}
+
+}  // namespace
+
+Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& options, const Progress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  validate_options(options, "IdentifyOptions");
+  if (pulses.empty()) throw InvalidInput("identify: no pulse given");
+  std::vector<FitTarget> targets;
+  for (const Pulse& pulse : pulses) targets.push_back(make_target(pulse, options.mass_kg, options.weights));
+  const FitStructure structure = make_structure(options, targets);
+  const Eigen::VectorXd upper = upper_bounds(structure, options, targets);
+  const Eigen::VectorXd linear = solve_equation_error(structure, targets, upper, options.smooth);
+
+  Identification out;
+  out.seed = options.seed;
+  std::vector<double> parameters(linear.begin(), linear.end());
+  if (options.method == IdentifyMethod::multistart) {
+    const std::vector<StartResult> results = run_starts({structure, targets, options, upper, linear}, progress);
+    const int best = best_start(results);
+    for (const StartResult& result : results) {
+      if (result.report.evaluations == 0) continue;
+      out.starts.push_back(result.report);
+      out.evaluations += result.report.evaluations;
+      if (best >= 0 && result.report.error <= (1.0 + kBest) * results[static_cast<std::size_t>(best)].report.error)
+        ++out.starts_at_best;
+    }
+    if (best >= 0) parameters = results[static_cast<std::size_t>(best)].parameters;
+    if (out.starts.size() < results.size()) {
+      out.outcome = IdentifyOutcome::interrupted;
+      out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
+    } else if (best < 0) {
+      out.outcome = IdentifyOutcome::every_start_failed;
+      out.message =
+          fmt::format("all {} starts failed: their simulations did not reach the end of the pulse", results.size());
+    }
+    if (best < 0) return out;
+  }
+  out.model = make_model(structure, parameters, targets.front().mass_kg, targets.front().impact_speed_mps);
+  judge(structure, targets, options, upper, parameters, out);
+  if (out.outcome == IdentifyOutcome::not_run) out.outcome = IdentifyOutcome::completed;
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return out;
+}
+
+Identification identify(const Pulse& pulse, const IdentifyOptions& options, const Progress& progress) {
+  return identify(std::span(&pulse, 1), options, progress);
+}
+
+FitError fit_error(const CrushModel& model, const Pulse& pulse, const Setting<Weights>& weights, Loss loss) {
+  return error_of_record(model, make_target(pulse, model.mass_kg, weights), loss);
+}
+
+std::string Identification::brief_report() const {
+  if (outcome == IdentifyOutcome::not_run) return "not run";
+  if (!usable()) return fmt::format("{}: {}", name_of(outcome), message);
+  return fmt::format("E = {:.6f}, {} of {} starts at the best; {}", error.total, starts_at_best, starts.size(),
+                     verdict.message);
+}
+
+}  // namespace crashsim

@@ -1,0 +1,60 @@
+#pragma once
+/// E of eq. (4) and its exact gradient, by the Taylor kernel.
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "optimize/fit_target.hpp"
+#include "solver/crush_force.hpp"
+
+namespace crashsim {
+
+/// What is fitted: law and knots; parameters are the ordinates, spring first.
+struct FitStructure {
+  CrushLaw law = CrushLaw::stiffness;
+  std::vector<double> spring_knots, damper_knots;
+
+  [[nodiscard]] std::size_t size() const { return spring_knots.size() + damper_knots.size(); }
+};
+
+/// Sizes of ordinates that alone would make the largest measured force at the end of their range.
+struct ForceScale {
+  double spring = kUnset, damper = kUnset;
+};
+ForceScale force_scale(CrushLaw law, std::span<const FitTarget> targets);
+
+/// Model with given parameters.
+CrushModel make_model(const FitStructure& structure, std::span<const double> parameters, double mass_kg,
+                      double impact_speed_mps);
+
+/// E over one or several targets (their mean). Holds its workspace: one object per thread.
+class FitObjective {
+ public:
+  FitObjective(const FitStructure& structure, std::span<const FitTarget> targets, Loss loss, double smooth);
+
+  /// E, and its gradient when `gradient` is not empty; infinite when a simulation fails.
+  /// @param smoothing rounding of the corner of |u|, 0 for the true loss.
+  double evaluate(std::span<const double> parameters, double smoothing, std::span<double> gradient);
+
+  /// Derivatives of the scaled residuals (acceleration, velocity, displacement of each sample in turn) by the
+  /// parameters; rows are weighted as in E with the squared loss.
+  Eigen::MatrixXd jacobian(std::span<const double> parameters);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  void set(std::span<const double> parameters);
+  double roughness(std::span<const double> parameters, std::span<double> gradient) const;
+
+  std::span<const FitTarget> targets_;
+  Loss loss_;
+  double smooth_;
+  std::size_t spring_count_, size_;
+  CrushForce force_;
+  ForceScale scale_;
+  std::vector<double> sensitivity_x_, sensitivity_v_;
+};
+
+}  // namespace crashsim

@@ -1,0 +1,25 @@
+#pragma once
+/// How far identified ordinates can be believed, from the sensitivity matrix at the solution.
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "optimize/fit_objective.hpp"
+
+namespace crashsim {
+
+struct Identifiability {
+  Verdict verdict;
+  std::vector<OrdinateReport> ordinates;
+  std::vector<std::vector<double>> correlation;
+};
+
+/// @param residual_variance of the scaled residuals that the rows of `jacobian` belong to.
+/// @param tests number of pulses fitted, for the message.
+Identifiability judge_identifiability(const FitStructure& structure, std::span<const double> parameters,
+                                      const Eigen::VectorXd& upper, const Eigen::MatrixXd& jacobian,
+                                      double residual_variance, std::size_t tests);
+
+}  // namespace crashsim
