@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "check_fields.hpp"
+#include <crashsim/option_values.hpp>
 
 namespace crashsim {
 namespace {
@@ -25,12 +25,12 @@ Eigen::Matrix2d axle_matrix(double front, double rear, double lf, double lr) {
 }  // namespace
 
 void validate(const HeavePitchModel& model) {
-  check_ranges(model, kWhat);
+  validate_options(model, kWhat);
   using M = HeavePitchModel;
   for (const auto member :
        {&M::mass_kg, &M::pitch_inertia_kgm2, &M::front_axle_m, &M::rear_axle_m, &M::front_stiffness_n_per_m,
         &M::rear_stiffness_n_per_m, &M::front_damping_ns_per_m, &M::rear_damping_ns_per_m})
-    require_set(model, kWhat, member);
+    require_set(model, member, kWhat);
 }
 
 HeavePitchModel with_axle_values(const HeavePitchModel& model) {

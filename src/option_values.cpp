@@ -79,6 +79,11 @@ void throw_out_of_range(std::string_view what, double value, std::string_view un
   throw InvalidInput(fmt::format("{} = {}: {}", what, with_unit, rule));
 }
 
+void throw_not_set(std::string_view what, std::string_view why, std::string_view doc, std::string_view unit) {
+  throw InvalidInput(fmt::format("{} is not set{}{}: give the {}{}{}", what, why.empty() ? "" : " but ", why, doc,
+                                 unit.empty() ? "" : " in ", unit));
+}
+
 double to_number(const OptionValue& value, std::string_view unit, std::string_view what) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
   if (const auto* number = std::get_if<std::int64_t>(&value)) return static_cast<double>(*number);

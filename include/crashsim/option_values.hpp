@@ -27,6 +27,8 @@ int to_choice(const OptionValue& value, std::span<const std::string_view> names,
 /// Index of the rule named, or of the last one with `numbers` filled.
 int to_setting(const OptionValue& value, std::span<const std::string_view> names, std::string_view unit,
                std::string_view what, std::vector<double>& numbers);
+[[noreturn]] void throw_not_set(std::string_view what, std::string_view why, std::string_view doc,
+                                std::string_view unit);
 [[noreturn]] void throw_unknown_name(std::string_view what, std::string_view name,
                                      const std::vector<std::string_view>& valid);
 }  // namespace detail
@@ -109,6 +111,17 @@ void validate_options(const S& options, std::string_view what) {
   for (const Field<S>& field : fields<S>) {
     S copy;
     set_option(copy, field, get_option(options, field), std::string(what) + "." + std::string(field.name));
+  }
+}
+
+/// @throws InvalidInput naming `what`, the field and what to give, when a number is unset; `why` is what needs it.
+template <class S>
+void require_set(const S& options, double S::*member, std::string_view what, std::string_view why = "") {
+  if (!std::isnan(options.*member)) return;
+  for (const Field<S>& field : fields<S>) {
+    const auto* described = std::get_if<double S::*>(&field.member);
+    if (described != nullptr && *described == member)
+      detail::throw_not_set(std::string(what) + "." + std::string(field.name), why, field.doc, field.unit);
   }
 }
 

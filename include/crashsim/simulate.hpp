@@ -9,6 +9,7 @@
 #include <crashsim/crush_model.hpp>
 #include <crashsim/error.hpp>
 #include <crashsim/options.hpp>
+#include <crashsim/solver_statistics.hpp>
 
 namespace crashsim {
 
@@ -56,13 +57,6 @@ inline constexpr std::string_view kCrushOutcomeNames[] = {"not_run",         "co
                                                           "left_knot_range", "step_limit", "failed"};
 template <>
 inline constexpr std::span<const std::string_view> enum_names<CrushOutcome>{kCrushOutcomeNames};
-
-/// Work of the integrator.
-struct SolverStatistics {
-  long steps = 0;              ///< Accepted steps.
-  long force_evaluations = 0;  ///< Right-hand sides evaluated.
-  long events = 0;             ///< Knots crossed, turning points, separation.
-};
 
 /// What a simulation gives. Numbers are unset and arrays empty until computed.
 struct CrushResponse {

@@ -183,7 +183,7 @@ TEST(HeavePitchModel, RefusesBadValuesByName) {
               ThrowsMessage<InvalidInput>("HeavePitchModel.force_height_m = -0.1 m: must be >= 0"));
   EXPECT_THAT(with(&M::rear_stiffness_n_per_m, kUnset),
               ThrowsMessage<InvalidInput>(AllOf(HasSubstr("HeavePitchModel.rear_stiffness_n_per_m is not set"),
-                                                HasSubstr("suspension stiffness of the rear axle in N/m, >= 0"))));
+                                                HasSubstr("give the suspension stiffness of the rear axle in N/m"))));
 }
 
 TEST(HeavePitchModel, TheFieldTableIsComplete) {

@@ -1,0 +1,209 @@
+#include <crashsim/simulate_pitch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <crashsim/option_values.hpp>
+#include <crashsim/signal.hpp>
+
+#include "solver/pitch_peaks.hpp"
+
+namespace crashsim {
+namespace {
+
+constexpr double kDefaultEnd = 0.3;  // [s]
+constexpr double kMaxSamples = 1e8;
+constexpr double kNegligibleForce = 0.01;  // of the largest: what may be cut off unnoticed
+constexpr double kLongestStepAngle = 0.1;  // of the fastest motion, so that peaks between samples are found [rad]
+constexpr double kFewestSteps = 100.0, kMostDivisions = 20000.0;
+
+void check(const TimeSeries& series, std::string_view name) {
+  if (!series.empty()) check_series(series.time_s, series.values, fmt::format("PitchForcing.{}", name), 2);
+}
+
+/// @throws InvalidInput when a series is bad or the model lacks what the forcing needs.
+void check(const HeavePitchModel& model, const PitchForcing& forcing) {
+  check(forcing.vertical_force_n, "vertical_force_n");
+  check(forcing.longitudinal_force_n, "longitudinal_force_n");
+  check(forcing.force_height_m, "force_height_m");
+  if (model.formulation == PitchFormulation::as_printed) return;
+  using M = HeavePitchModel;
+  if (!forcing.vertical_force_n.empty())
+    require_set(model, &M::force_arm_m, "HeavePitchModel", "there is a vertical force");
+  if (forcing.longitudinal_force_n.empty()) return;
+  require_set(model, &M::cg_height_m, "HeavePitchModel", "there is a longitudinal force");
+  if (forcing.force_height_m.empty())
+    require_set(model, &M::force_height_m, "HeavePitchModel",
+                "there is a longitudinal force without a series of its height");
+}
+
+/// @throws InvalidInput when the rule needs what is not there.
+double start_time(const PitchForcing& forcing, const PitchOptions& options) {
+  if (options.start.rule == PitchStart::impact) return 0.0;
+  if (options.start.rule == PitchStart::given) {
+    const auto& numbers = options.start.numbers;
+    if (numbers.size() == 1 && std::isfinite(numbers[0])) return numbers[0];
+    throw InvalidInput(fmt::format("PitchOptions.start = {}: must be one finite time in s", fmt::join(numbers, ",")));
+  }
+  if (std::isfinite(forcing.t_m_s)) return forcing.t_m_s;
+  throw InvalidInput(
+      "PitchOptions.start = t_m: PitchForcing.t_m_s, the time of maximum crush, is not set: give it, or start = impact "
+      "or a time");
+}
+
+/// Uniform times from `first` and the end; the last interval may be shorter.
+/// @throws InvalidInput when there would be too many.
+std::vector<double> sample_times(double first_s, double end_s, double dt_s) {
+  constexpr double kSameMultiple = 1e-9;  // an end this near a multiple of dt is one
+  const double intervals = std::max(1.0, std::ceil((end_s - first_s) / dt_s - kSameMultiple));
+  if (intervals > kMaxSamples)
+    throw InvalidInput(fmt::format("PitchOptions.dt_s = {} s: gives {:.3g} samples, more than {:g}: take a longer one",
+                                   dt_s, intervals, kMaxSamples));
+  std::vector<double> times = uniform_times(first_s, dt_s, static_cast<std::size_t>(intervals) + 1);
+  times.back() = end_s;
+  return times;
+}
+
+void note_cut_force(const TimeSeries& force, std::string_view name, double start_s, double end_s,
+                    std::vector<std::string>& notes) {
+  if (force.empty()) return;
+  double largest = 0.0;
+  for (const double f : force.values) largest = std::max(largest, std::abs(f));
+  const auto note = [&](double t, double f, std::string_view verb, std::string_view side) {
+    if (t <= start_s || t >= end_s || std::abs(f) <= kNegligibleForce * largest) return;
+    notes.push_back(fmt::format("{} {} at {:.6g} s with {:.6g} N, {:.0f} % of its largest: it is zero {} that", name,
+                                verb, t, f, 100.0 * std::abs(f) / largest, side));
+  };
+  note(force.time_s.front(), force.values.front(), "begins", "before");
+  note(force.time_s.back(), force.values.back(), "ends", "after");
+}
+
+std::vector<std::string> notes_on(const HeavePitchModel& model, const PitchForcing& forcing, double start_s,
+                                  double end_s) {
+  std::vector<std::string> notes;
+  note_cut_force(forcing.vertical_force_n, "vertical_force_n", start_s, end_s, notes);
+  note_cut_force(forcing.longitudinal_force_n, "longitudinal_force_n", start_s, end_s, notes);
+  if (model.formulation == PitchFormulation::derived) return notes;
+  notes.emplace_back("as_printed: the vertical force acts at a lever arm of 1 m, whatever force_arm_m says");
+  if (!forcing.longitudinal_force_n.empty())
+    notes.emplace_back("as_printed: the longitudinal force is not in the printed equations and is left out");
+  if (!is_dissipative(model))
+    notes.emplace_back("as_printed: the damping matrix is not positive semidefinite: some motions gain energy");
+  return notes;
+}
+
+/// What the motion is at one output time.
+struct Sample {
+  PitchState y = PitchState::Zero();
+  Eigen::Vector2d accel = Eigen::Vector2d::Zero(), force = Eigen::Vector2d::Zero();
+};
+
+void set_sample(PitchResponse& r, std::size_t i, const HeavePitchModel& axle, const Sample& sample) {
+  const double z = sample.y[0], theta = sample.y[1], dz = sample.y[2], dtheta = sample.y[3];
+  const double lf = axle.front_axle_m, lr = axle.rear_axle_m;
+  r.heave_m[i] = z;
+  r.pitch_rad[i] = theta;
+  r.heave_velocity_mps[i] = dz;
+  r.pitch_rate_radps[i] = dtheta;
+  r.heave_accel_mps2[i] = sample.accel[0];
+  r.pitch_accel_radps2[i] = sample.accel[1];
+  r.front_deflection_m[i] = z - lf * theta;
+  r.rear_deflection_m[i] = z + lr * theta;
+  r.front_axle_force_n[i] =
+      -axle.front_stiffness_n_per_m * (z - lf * theta) - axle.front_damping_ns_per_m * (dz - lf * dtheta);
+  r.rear_axle_force_n[i] =
+      -axle.rear_stiffness_n_per_m * (z + lr * theta) - axle.rear_damping_ns_per_m * (dz + lr * dtheta);
+  r.heave_force_n[i] = axle.mass_kg * sample.force[0];
+  r.pitch_moment_nm[i] = axle.pitch_inertia_kgm2 * sample.force[1];
+}
+
+void set_peaks(PitchResponse& r, const PitchPeaks& peaks) {
+  r.pitch_max_rad = peaks.pitch_max.value;
+  r.pitch_max_time_s = peaks.pitch_max.time_s;
+  r.heave_min_m = peaks.heave_min.value;
+  r.heave_min_time_s = peaks.heave_min.time_s;
+  r.heave_velocity_min_mps = peaks.heave_velocity_min.value;
+  r.heave_velocity_min_time_s = peaks.heave_velocity_min.time_s;
+}
+
+/// Steps short enough for the fastest free motion, but not more of them than anybody needs.
+double longest_step(const std::vector<Mode>& free_motions, double duration_s) {
+  const double fastest = 2.0 * std::numbers::pi * free_motions.back().frequency_hz;
+  return std::clamp(kLongestStepAngle / fastest, duration_s / kMostDivisions, duration_s / kFewestSteps);
+}
+
+/// Fills the channels: the initial position before the start, the grid's samples after it.
+void set_channels(PitchResponse& r, const HeavePitchModel& model, const PitchOptions& options, const PitchGrid& grid,
+                  std::span<const PitchState> states, std::span<const Eigen::Vector2d> accelerations) {
+  const HeavePitchModel axle = with_axle_values(model);
+  const std::size_t count = r.time_s.size();
+  for (const PitchColumn& column : kPitchColumns) (r.*column.member).resize(count);
+  const std::size_t held = count - grid.samples.size();
+  for (std::size_t i = 0; i < held; ++i) set_sample(r, i, axle, {.y = {options.heave_m, options.pitch_rad, 0.0, 0.0}});
+  for (std::size_t i = held; i < count; ++i) {
+    const std::size_t at = grid.samples[i - held];
+    set_sample(r, i, axle, {states[at], accelerations[at], grid.forces[at].col(0)});
+  }
+}
+
+/// Integrates on the grid, then fills the channels and the peaks.
+void run(PitchResponse& r, const HeavePitchModel& model, const PitchOptions& options, const PitchGrid& grid) {
+  const LinearSystem system = linear_system(model);
+  std::vector<PitchState> states{
+      {options.heave_m, options.pitch_rad, options.heave_velocity_mps, options.pitch_rate_radps}};
+  PitchWork work = options.integrator == PitchIntegrator::cvode ? integrate_by_cvode(system, grid, options.rtol, states)
+                                                                : integrate_by_propagator(system, grid, states);
+  r.outcome = work.outcome;
+  r.message = std::move(work.message);
+  r.statistics = work.statistics;
+  if (!r.usable()) {
+    r.time_s.clear();
+    return;
+  }
+  std::vector<Eigen::Vector2d> accelerations(states.size());
+  for (std::size_t i = 0; i < states.size(); ++i)
+    accelerations[i] = system.acceleration(states[i], grid.forces[i].col(0));
+  set_channels(r, model, options, grid, states, accelerations);
+  set_peaks(r, find_peaks(system, grid, states, accelerations));
+}
+
+}  // namespace
+
+PitchResponse simulate_pitch(const HeavePitchModel& model, const PitchForcing& forcing, const PitchOptions& options) {
+  validate(model);
+  validate_options(options, "PitchOptions");
+  check(model, forcing);
+  const double start_s = start_time(forcing, options);
+  const double end_s = std::isnan(options.end_time_s) ? kDefaultEnd : options.end_time_s;
+  if (end_s <= start_s)
+    throw InvalidInput(
+        fmt::format("PitchOptions.end_time_s = {} s: must be after the start of the motion, {} s", end_s, start_s));
+
+  PitchResponse response;
+  response.start_time_s = start_s;
+  response.modes = modes(model);
+  response.notes = notes_on(model, forcing, start_s, end_s);
+  response.time_s = sample_times(std::min(0.0, start_s), end_s, options.dt_s);
+  const auto first = std::ranges::lower_bound(response.time_s, start_s - time_rounding(start_s, end_s));
+  const std::span samples(first, response.time_s.end());
+  run(response, model, options,
+      make_grid(model, forcing, start_s, samples, longest_step(response.modes, end_s - start_s)));
+  return response;
+}
+
+std::string PitchResponse::brief_report() const {
+  if (!usable()) return fmt::format("{}: {}", name_of(outcome), message);
+  return fmt::format(
+      "{}: largest pitch {:.4g} rad ({:.3g} deg) at {:.4f} s, lowest heave {:.4g} m at {:.4f} s, heave velocity down "
+      "to "
+      "{:.4g} m/s at {:.4f} s",
+      name_of(outcome), pitch_max_rad, pitch_max_rad * 180.0 / std::numbers::pi, pitch_max_time_s, heave_min_m,
+      heave_min_time_s, heave_velocity_min_mps, heave_velocity_min_time_s);
+}
+
+}  // namespace crashsim
