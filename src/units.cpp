@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -13,6 +12,7 @@
 
 #include <crashsim/error.hpp>
 
+#include "number.hpp"
 #include "text.hpp"
 
 namespace crashsim {
@@ -196,20 +196,6 @@ double unit_factor(std::string_view text, std::string_view unit_name, Dimension 
   throw InvalidInput(fmt::format("{} = '{}': unknown unit '{}'; {}", what, text, unit_name, remedy));
 }
 
-/// Reads the number at the start of `text`; how many characters it took, 0 when there is none.
-std::size_t read_number(std::string_view text, double& value) {
-  const std::size_t sign = text.starts_with('+') && !text.starts_with("+-") ? 1 : 0;
-  const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
-  if (error == std::errc::invalid_argument) return 0;
-  const auto length = static_cast<std::size_t>(end - text.data());
-  if (error == std::errc::result_out_of_range) {
-    const bool tiny = text.substr(0, length).find("e-") != std::string::npos ||
-                      text.substr(0, length).find("E-") != std::string::npos;
-    value = std::copysign(tiny ? 0.0 : std::numeric_limits<double>::infinity(), text.starts_with('-') ? -1.0 : 1.0);
-  }
-  return length;
-}
-
 }  // namespace
 
 std::string_view si_symbol(Dimension dimension) { return names_of(dimension).si_symbol; }
@@ -227,18 +213,18 @@ Dimension dimension_of(std::string_view symbol) {
 double quantity(std::string_view text, Dimension dimension, std::string_view what) {
   const std::string_view all = trimmed(text);
   double value = kUnset;
-  const std::size_t length = read_number(all, value);
-  if (length == 0 || !std::isfinite(value))
+  const char* end = scan_number(all.data(), all.data() + all.size(), value);
+  if (end == all.data() || !std::isfinite(value))
     throw InvalidInput(fmt::format("{} = '{}': is not a finite number", what, text));
-  const std::string_view unit = trimmed(all.substr(length));
+  const std::string_view unit = trimmed({end, all.data() + all.size()});
   return unit.empty() ? value : value * unit_factor(text, unit, dimension, what);
 }
 
 std::optional<double> parse_number(std::string_view text) {
   const std::string_view all = trimmed(text);
   double value = kUnset;
-  const std::size_t length = read_number(all, value);
-  if (length == 0 || length != all.size()) return std::nullopt;
+  const char* end = scan_number(all.data(), all.data() + all.size(), value);
+  if (all.empty() || end != all.data() + all.size()) return std::nullopt;
   return value;
 }
 
