@@ -165,11 +165,12 @@ void check_series(std::span<const double> time_s, std::span<const double> values
       throw InvalidInput(fmt::format("{}: time of sample {} is {}: must be finite", what, i + 1, time_s[i]));
     if (i > 0 && !(time_s[i] > time_s[i - 1]))
       throw InvalidInput(
-          fmt::format("{}: time of sample {} is {} s, not after the one before it, {} s: times must "
+          fmt::format("{}: time of sample {} is {:.9g} s, not after the one before it, {:.9g} s: times must "
                       "increase",
                       what, i + 1, time_s[i], time_s[i - 1]));
     if (!std::isfinite(values[i]))
-      throw InvalidInput(fmt::format("{}: sample {} at {} s is {}: must be finite", what, i + 1, time_s[i], values[i]));
+      throw InvalidInput(
+          fmt::format("{}: sample {} at {:.9g} s is {}: must be finite", what, i + 1, time_s[i], values[i]));
   }
 }
 

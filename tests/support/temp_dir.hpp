@@ -26,7 +26,7 @@ class TempDir {
 
   [[nodiscard]] std::string path(std::string_view name) const { return (path_ / name).string(); }
   /// Writes a file into the folder and returns its path.
-  [[nodiscard]] std::string file(std::string_view name, std::string_view text) const {
+  std::string file(std::string_view name, std::string_view text) const {
     write_file_atomically(path(name), text, true);
     return path(name);
   }

@@ -1,0 +1,257 @@
+#include "io/csv_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <crashsim/error.hpp>
+#include <crashsim/units.hpp>
+
+#include "number.hpp"
+#include "text.hpp"
+
+namespace crashsim::io {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::size_t kLinesBeforeNumbers = 1000;
+constexpr std::size_t kBinarySample = 4096;
+
+/// Walks over a text line by line; lines come without their end.
+class Lines {
+ public:
+  Lines(std::string_view text, std::size_t offset, std::size_t number) : text_(text), next_(offset), number_(number) {}
+  bool next() {
+    if (next_ >= text_.size()) return false;
+    offset_ = next_;
+    const std::size_t end = std::min(text_.find('\n', offset_), text_.size());
+    line_ = text_.substr(offset_, end - offset_);
+    if (line_.ends_with('\r')) line_.remove_suffix(1);
+    next_ = end + 1;
+    ++number_;
+    return true;
+  }
+  [[nodiscard]] std::string_view line() const { return line_; }
+  [[nodiscard]] std::size_t offset() const { return offset_; }
+  [[nodiscard]] std::size_t number() const { return number_; }
+
+ private:
+  std::string_view text_, line_;
+  std::size_t next_, offset_ = 0, number_;
+};
+
+bool is_comment(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  return text.starts_with('#') || text.starts_with('%') || text.starts_with("//");
+}
+
+std::string_view without_mark(std::string_view comment) {
+  return comment.substr(std::min(comment.find_first_not_of("#%/ \t"), comment.size()));
+}
+
+std::optional<std::pair<std::string, std::string>> key_and_value(std::string_view comment) {
+  const std::string_view text = without_mark(comment);
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return std::nullopt;
+  return std::pair(std::string(trimmed(text.substr(0, equals))), std::string(trimmed(text.substr(equals + 1))));
+}
+
+bool is_separator(char c, char separator) { return separator == ' ' ? is_blank(c) : c == separator; }
+
+/// Takes the next cell off a line: without blanks and quotes around it.
+std::string_view take_cell(std::string_view& line, char separator) {
+  const auto skip_blanks = [&] {
+    while (!line.empty() && is_blank(line.front()) && (separator == ' ' || line.front() != separator))
+      line.remove_prefix(1);
+  };
+  skip_blanks();
+  std::string_view cell;
+  if (line.starts_with('"')) {
+    const std::size_t end = std::min(line.find('"', 1), line.size());
+    cell = line.substr(1, end - 1);
+    line.remove_prefix(std::min(end + 1, line.size()));
+    skip_blanks();
+  }
+  std::size_t end = 0;
+  while (end < line.size() && !is_separator(line[end], separator)) ++end;
+  if (cell.empty()) cell = line.substr(0, end);
+  line.remove_prefix(end);
+  return trimmed(cell);
+}
+
+/// Takes the separator after a cell; false at the end of the line.
+bool take_separator(std::string_view& line, char separator) {
+  if (separator == ' ') return !(line = trimmed(line)).empty();
+  if (line.empty()) return false;
+  line.remove_prefix(1);
+  return true;
+}
+
+std::vector<std::string_view> split_cells(std::string_view line, char separator) {
+  std::vector<std::string_view> cells;
+  line = separator == ' ' ? trimmed(line) : line;
+  do cells.push_back(take_cell(line, separator));
+  while (take_separator(line, separator));
+  return cells;
+}
+
+/// The number in a cell: empty cells are NaN, and unless ',' separates it may be the decimal mark.
+std::optional<double> cell_number(std::string_view cell, char separator) {
+  if (cell.empty()) return std::nan("");
+  if (separator == ',' || cell.find(',') == std::string_view::npos) return parse_number(cell);
+  std::string with_point(cell);
+  std::replace(with_point.begin(), with_point.end(), ',', '.');
+  return parse_number(with_point);
+}
+
+/// The separator that makes a row of at least two numbers of a line.
+std::optional<char> separator_of_numbers(std::string_view line) {
+  for (const char separator : {';', '\t', ',', ' '}) {
+    if (separator != ' ' && line.find(separator) == std::string_view::npos) continue;
+    const auto cells = split_cells(line, separator);
+    const auto is_number = [&](std::string_view cell) { return cell_number(cell, separator).has_value(); };
+    if (cells.size() < 2 || cells.front().empty()) continue;
+    if (std::all_of(cells.begin(), cells.end(), is_number)) return separator;
+    if (separator != ',' && separator != ' ') return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+struct TextLine {
+  std::string_view text;
+  std::size_t number;
+};
+
+std::vector<std::string> header_cells(const TextLine& line, const CsvLayout& layout) {
+  auto cells = split_cells(line.text, layout.separator);
+  while (cells.size() > layout.columns && cells.back().empty()) cells.pop_back();
+  if (cells.size() != layout.columns) return {};
+  return {cells.begin(), cells.end()};
+}
+
+std::string without_brackets(const std::string& cell) {
+  const bool bracketed = cell.size() > 2 && (cell.front() == '[' || cell.front() == '(');
+  return bracketed ? cell.substr(1, cell.size() - 2) : cell;
+}
+
+bool are_units(const std::vector<std::string>& cells) {
+  const auto is_unit = [](const std::string& cell) { return find_unit(without_brackets(cell)).has_value(); };
+  return std::any_of(cells.begin(), cells.end(), is_unit) &&
+         std::all_of(cells.begin(), cells.end(), [&](const std::string& c) { return c.empty() || is_unit(c); });
+}
+
+/// Names, and units where a row of them stands under the names, from the lines before the numbers: the last that are
+/// no comments, or else the last comment where it has as many cells.
+void find_header(const std::vector<TextLine>& before, std::string_view last_comment, CsvLayout& layout) {
+  if (before.empty()) {
+    layout.names = header_cells({without_mark(last_comment), 0}, layout);
+    return;
+  }
+  layout.names = header_cells(before.back(), layout);
+  if (layout.names.empty()) {
+    layout.odd_line = before.back().number;
+    return;
+  }
+  if (before.size() < 2 || !are_units(layout.names)) return;
+  const auto names = header_cells(before[before.size() - 2], layout);
+  if (names.empty()) return;
+  layout.units = std::exchange(layout.names, names);
+  std::transform(layout.units.begin(), layout.units.end(), layout.units.begin(), without_brackets);
+}
+
+[[noreturn]] void refuse_row(const std::string& path, std::size_t line, std::string_view row, const CsvLayout& layout) {
+  throw InvalidInput(
+      fmt::format("{}:{}: {} cells, but the rows before have {}: the row is ragged or the file truncated", path, line,
+                  split_cells(row, layout.separator).size(), layout.columns));
+}
+
+/// Reads the cells of one row into `row`, those that are wanted.
+void read_row(const Lines& lines, const CsvLayout& layout, const std::vector<bool>& wanted, const std::string& path,
+              std::vector<double>& row) {
+  std::string_view rest = lines.line();
+  if (layout.separator == ' ') rest = trimmed(rest);
+  for (std::size_t column = 0; column < layout.columns; ++column) {
+    if (column > 0 && !take_separator(rest, layout.separator)) refuse_row(path, lines.number(), lines.line(), layout);
+    if (wanted[column]) {
+      const char* end = scan_number(rest.data(), rest.data() + rest.size(), row[column]);
+      const auto used = static_cast<std::size_t>(end - rest.data());
+      if (used > 0 && (used == rest.size() || is_separator(*end, layout.separator))) {
+        rest.remove_prefix(used);
+        continue;
+      }
+    }
+    const std::string_view cell = take_cell(rest, layout.separator);
+    if (!wanted[column]) continue;
+    const auto value = cell_number(cell, layout.separator);
+    if (!value)
+      throw InvalidInput(
+          fmt::format("{}:{}: column {}: '{}' is not a number", path, lines.number(), column + 1, cell.substr(0, 40)));
+    row[column] = *value;
+  }
+  const bool ends = trimmed(rest).empty() || (take_separator(rest, layout.separator) && trimmed(rest).empty());
+  if (!ends) refuse_row(path, lines.number(), lines.line(), layout);
+}
+
+void check_time(double time, double previous, const std::string& path, std::size_t line) {
+  if (!std::isfinite(time))
+    throw InvalidInput(fmt::format("{}:{}: time is {}: must be a finite number", path, line, time));
+  if (time <= previous)
+    throw InvalidInput(fmt::format("{}:{}: time {} is not after the one before it, {}: times must increase", path, line,
+                                   time, previous));
+}
+
+}  // namespace
+
+std::optional<CsvLayout> find_layout(std::string_view text) {
+  if (text.substr(0, kBinarySample).find('\0') != std::string_view::npos) return std::nullopt;
+  CsvLayout layout;
+  std::vector<TextLine> before;
+  std::string_view last_comment;
+  for (Lines lines(text, text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0, 0);
+       lines.next() && lines.number() <= kLinesBeforeNumbers;) {
+    if (trimmed(lines.line()).empty()) continue;
+    if (is_comment(lines.line())) {
+      last_comment = lines.line();
+      if (auto pair = key_and_value(lines.line())) layout.comments.push_back(std::move(*pair));
+      continue;
+    }
+    if (const auto separator = separator_of_numbers(lines.line())) {
+      layout.separator = *separator;
+      const auto cells = split_cells(lines.line(), *separator);
+      layout.columns = cells.size();
+      layout.data_offset = lines.offset();
+      layout.data_line = lines.number();
+      find_header(before, last_comment, layout);
+      if (layout.odd_line != 0 && cells.back().empty()) {  // rows end with a separator, the header does not
+        layout.odd_line = 0;
+        --layout.columns;
+        find_header(before, last_comment, layout);
+      }
+      return layout;
+    }
+    before.push_back({lines.line(), lines.number()});
+  }
+  return std::nullopt;
+}
+
+std::vector<std::vector<double>> read_columns(std::string_view text, const CsvLayout& layout,
+                                              const std::vector<bool>& wanted, std::size_t time_column,
+                                              const std::string& path) {
+  std::vector<std::vector<double>> columns(layout.columns);
+  std::vector<double> row(layout.columns);
+  double previous = -std::numeric_limits<double>::infinity();
+  for (Lines lines(text, layout.data_offset, layout.data_line - 1); lines.next();) {
+    if (trimmed(lines.line()).empty() || is_comment(lines.line())) continue;
+    read_row(lines, layout, wanted, path, row);
+    check_time(row[time_column], previous, path, lines.number());
+    previous = row[time_column];
+    for (std::size_t column = 0; column < layout.columns; ++column)
+      if (wanted[column]) columns[column].push_back(row[column]);
+  }
+  return columns;
+}
+
+}  // namespace crashsim::io

@@ -1,0 +1,176 @@
+/// OpenRadioss time history as CSV: what its converter th_to_csv writes, with variables numbered ("var 98") or, where
+/// the run wrote their titles, named; and tables whose node columns are called NODE_VX.
+///
+/// Numbered rigid-wall columns are the run's own cumulative impulses; named ones the converter has turned into forces.
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "io/csv_layout.hpp"
+#include "io/reader.hpp"
+#include "io/unit_system.hpp"
+#include "text.hpp"
+
+namespace crashsim::io {
+namespace {
+
+constexpr std::array<std::string_view, 9> kNodeVariables = {"DX", "DY", "DZ", "VX", "VY", "VZ", "AX", "AY", "AZ"};
+constexpr std::array<std::string_view, 6> kWallVariables = {"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ"};
+constexpr std::string_view kNumbered = " var ";
+
+/// What a column holds.
+struct Head {
+  std::string entity, variable;  ///< "LEFT_REAR" and "VX"; no entity for the whole model.
+  Dimension dimension = Dimension::unknown;
+  std::optional<Unit> unit;  ///< Where the header says it.
+};
+
+/// The text before " var 98" with runs of blanks made one: "outputblock1 250 RIGHT_MID"; empty when it is not numbered.
+std::string numbered_entity(std::string_view name) {
+  const std::size_t at = name.rfind(kNumbered);
+  if (at == std::string_view::npos) return "";
+  const std::string_view number = trimmed(name.substr(at + kNumbered.size()));
+  if (number.empty() || !std::all_of(number.begin(), number.end(), is_digit)) return "";
+  std::string text;
+  for (const char c : trimmed(name.substr(0, at)))
+    if (!is_blank(c) || text.back() != ' ') text += is_blank(c) ? ' ' : c;
+  return text;
+}
+
+/// The name after the entity's number, or the whole when there is none: "TH RWALL 1 Barrier" is "Barrier".
+std::string short_name(const std::string& entity) {
+  const auto words = split(entity, ' ');
+  for (std::size_t i = words.size(); i-- > 1;) {
+    if (words[i].empty() || !std::all_of(words[i].begin(), words[i].end(), is_digit)) continue;
+    const auto from = static_cast<std::size_t>(words[i].data() - entity.data()) + words[i].size();
+    const std::string_view name = trimmed(std::string_view(entity).substr(from));
+    return std::string(name.empty() ? words[i] : name);
+  }
+  return entity;
+}
+
+/// Names the numbered variables of one entity, which stand in a fixed order.
+void name_numbered(const std::string& entity, std::size_t count, std::vector<Head>& heads) {
+  const bool is_wall = to_lower(entity).find("wall") != std::string::npos;
+  for (std::size_t i = 0; i < count; ++i) {
+    Head head{short_name(entity), fmt::format("var{}", i + 1), Dimension::unknown, std::nullopt};
+    if (is_wall && count == kWallVariables.size()) {
+      head.variable = kWallVariables[i];
+      head.dimension = Dimension::impulse;
+    } else if (!is_wall && count == kNodeVariables.size()) {
+      head.variable = kNodeVariables[i];
+      head.dimension = fe_dimension(head.variable);
+    }
+    heads.push_back(std::move(head));
+  }
+}
+
+/// "LEFT_REAR_VX", "part1      KE", "INTERNAL ENERGY", "mass_Mg", "barrier_impulse_FNX_N.s".
+Head named_head(std::string_view name) {
+  const std::string_view text = trimmed(name);
+  if (const Dimension whole = fe_dimension(text); whole != Dimension::unknown)
+    return {"", std::string(text), whole, std::nullopt};
+  for (std::size_t at = text.find('_'); at != std::string_view::npos; at = text.find('_', at + 1)) {
+    const auto unit = find_unit(text.substr(at + 1));
+    if (!unit || unit->dimension == Dimension::none) continue;
+    const std::string variable(trimmed(text.substr(0, at)));
+    const bool energy = unit->dimension == Dimension::moment && fe_dimension(variable) == Dimension::energy;
+    return {"", variable, energy ? Dimension::energy : unit->dimension, unit};
+  }
+  const std::size_t padding = text.rfind("  ");
+  const std::size_t at = padding == std::string_view::npos ? text.rfind('_') : padding + 1;
+  if (at == std::string_view::npos || at == 0) return {"", std::string(text), Dimension::unknown, std::nullopt};
+  const std::string_view variable = text.substr(at + 1);
+  return {std::string(trimmed(text.substr(0, at))), std::string(variable), fe_dimension(variable), std::nullopt};
+}
+
+std::vector<Head> parse_heads(const std::vector<std::string>& names) {
+  std::vector<Head> heads;
+  for (std::size_t i = 0; i < names.size();) {
+    const std::string entity = numbered_entity(names[i]);
+    if (entity.empty()) {
+      heads.push_back(named_head(names[i++]));
+      continue;
+    }
+    std::size_t count = 1;
+    while (i + count < names.size() && numbered_entity(names[i + count]) == entity) ++count;
+    name_numbered(entity, count, heads);
+    i += count;
+  }
+  return heads;
+}
+
+bool is_motion(const Head& head) {
+  return !head.entity.empty() && !head.unit &&
+         std::find(kNodeVariables.begin(), kNodeVariables.end(), head.variable) != kNodeVariables.end();
+}
+
+bool is_radioss(const CsvLayout& layout) {
+  if (layout.names.size() < 4 || !to_lower(layout.names[0]).starts_with("time")) return false;
+  if (layout.names[1] == "INTERNAL ENERGY" && layout.names[2] == "KINETIC ENERGY") return true;
+  const std::vector<Head> heads = parse_heads(layout.names);
+  return std::count_if(heads.begin(), heads.end(), is_motion) >= 3;
+}
+
+/// The header where it is one of OpenRadioss.
+std::optional<CsvLayout> radioss_layout(const InputFile& file) {
+  if (file.is_folder()) return std::nullopt;
+  auto layout = find_layout(file.bytes());
+  return layout && is_radioss(*layout) ? std::move(layout) : std::nullopt;
+}
+
+bool detects(const InputFile& file) { return radioss_layout(file).has_value(); }
+
+Trace describe(const Head& head, std::size_t column) {
+  Trace trace;
+  trace.id = std::to_string(column + 1);
+  trace.name = head.entity.empty() ? head.variable : fmt::format("{}_{}", head.entity, head.variable);
+  trace.location = head.entity;
+  trace.dimension = head.dimension;
+  trace.has_samples = false;
+  if (head.unit) trace.source_unit = head.unit->name;
+  const char last = head.variable.empty() ? ' ' : head.variable.back();
+  if (!head.entity.empty() && last >= 'X' && last <= 'Z') trace.axis = last;
+  return trace;
+}
+
+TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& choose) {
+  const CsvLayout layout = radioss_layout(file).value();
+  const std::vector<Head> heads = parse_heads(layout.names);
+  const UnitSystem system = parse_unit_system(options.units);
+  TraceSet set;
+  set.path = file.path();
+  set.input_files = {file.path()};
+  for (std::size_t column = 1; column < heads.size(); ++column) set.traces.push_back(describe(heads[column], column));
+
+  const std::vector<std::size_t> chosen = choose(set);
+  std::vector<bool> wanted(layout.columns);
+  wanted[0] = true;
+  for (const std::size_t i : chosen) wanted[i + 1] = true;
+  auto columns = read_columns(file.bytes(), layout, wanted, 0, file.path());
+  const auto scale = [&](std::vector<double>& values, const Head& head) {
+    const double factor = head.unit ? head.unit->to_si : to_si(system, head.dimension);
+    if (factor != 1.0) std::for_each(values.begin(), values.end(), [&](double& value) { value *= factor; });
+  };
+  scale(columns[0], heads[0]);
+  const auto time_s = std::make_shared<const std::vector<double>>(std::move(columns[0]));
+  for (const std::size_t i : chosen) {
+    Trace& trace = set.traces[i];
+    scale(columns[i + 1], heads[i + 1]);
+    trace.values = std::move(columns[i + 1]);
+    trace.time_s = time_s;
+    trace.has_samples = true;
+  }
+  if (options.units.empty()) warn_when_implausible(set);
+  return set;
+}
+
+}  // namespace
+
+const Reader kRadiossCsvReader = {"radioss_csv", "OpenRadioss time history as CSV", detects, read};
+
+}  // namespace crashsim::io

@@ -1,0 +1,14 @@
+#pragma once
+/// The names a mistyped one may have meant, for messages.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crashsim {
+
+/// Up to `count` candidates in order of likeness: fewest edits, letter case ignored; a candidate that contains the text
+/// counts as near.
+std::vector<std::string> nearest(std::string_view text, const std::vector<std::string>& candidates, std::size_t count);
+
+}  // namespace crashsim

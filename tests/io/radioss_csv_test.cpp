@@ -1,0 +1,124 @@
+#include <string>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <crashsim/error.hpp>
+#include <crashsim/trace_io.hpp>
+
+#include "support/shared_data.hpp"
+#include "support/temp_dir.hpp"
+
+namespace crashsim {
+namespace {
+
+using testing::DoubleEq;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::ThrowsMessage;
+
+/// What the converter writes for one part, one wall and one node; every value is its column's number, times the row.
+std::string converted() {
+  std::string names = "\"time\",\"INTERNAL ENERGY\",\"KINETIC ENERGY\",\"X-MOMENTUM\",\"MASS\",\"part1      KE \"";
+  std::string rows[2] = {"0", "1"};
+  const auto add = [&](const std::string& name) { names += fmt::format(",\"{}\"", name); };
+  for (int i = 0; i < 6; ++i) add(fmt::format("TH RWALL      1 Barrier      var {}", 6 + i));
+  for (int i = 0; i < 9; ++i) add(fmt::format("outputblock1      250 LEFT_REAR      var {}", 12 + i));
+  for (int column = 2; column <= 21; ++column)
+    for (int row = 0; row < 2; ++row) rows[row] += fmt::format(",{}", column * row);
+  return fmt::format("{}\n{}\n{}\n", names, rows[0], rows[1]);
+}
+
+const Trace& named(const TraceSet& set, const std::string& name) {
+  return set.traces.at(select_channels(set, name).at(0));
+}
+
+TEST(RadiossCsv, NumberedVariablesAreNamedByTheirOrder) {
+  const test::TempDir dir;
+  const TraceSet set = read_traces(dir.file("t.csv", converted()), {.channels = {}, .columns = "", .units = "t-mm-s"});
+  EXPECT_EQ(set.format, "radioss_csv");
+  ASSERT_EQ(set.traces.size(), 20u);
+  const Trace& wall = named(set, "Barrier_FTX");
+  EXPECT_EQ(wall.id, "10");
+  EXPECT_EQ(wall.dimension, Dimension::impulse) << "cumulative, as the run writes it";
+  EXPECT_THAT(wall.values, ElementsAre(0, DoubleEq(10.0)));
+  const Trace& speed = named(set, "LEFT_REAR_VX");
+  EXPECT_EQ(speed.dimension, Dimension::speed);
+  EXPECT_EQ(speed.axis, 'X');
+  EXPECT_EQ(speed.location, "LEFT_REAR");
+  EXPECT_THAT(speed.values, ElementsAre(0, DoubleEq(0.016)));
+  EXPECT_EQ(named(set, "LEFT_REAR_AZ").dimension, Dimension::acceleration);
+  EXPECT_THAT(named(set, "KINETIC ENERGY").values, ElementsAre(0, DoubleEq(0.003)));
+  EXPECT_EQ(named(set, "part1_KE").dimension, Dimension::energy);
+  EXPECT_THAT(named(set, "MASS").values, ElementsAre(0, DoubleEq(5000.0)));
+}
+
+TEST(RadiossCsv, VariablesNamedByTheRunsTitlesHaveForcesAlready) {
+  const test::TempDir dir;
+  const TraceSet set =
+      read_traces(dir.file("t.csv",
+                           "\"time\",\"INTERNAL ENERGY\",\"KINETIC ENERGY\",\"TH RWALL   1 Barrier    FNX \","
+                           "\"block   250 LEFT_REAR    VX \"\n0,0,0,0,0\n1e-3,1,2,3000,-4000\n"),
+                  {.channels = {}, .columns = "", .units = "t-mm-s"});
+  EXPECT_EQ(set.traces[2].dimension, Dimension::force);
+  EXPECT_EQ(set.traces[3].dimension, Dimension::speed);
+  EXPECT_THAT(set.traces[3].values, ElementsAre(0, DoubleEq(-4.0)));
+}
+
+TEST(RadiossCsv, HeadersThatSayTheirUnitsNeedNoSystem) {
+  const test::TempDir dir;
+  const TraceSet set = read_traces(
+      dir.file("t.csv",
+               "time_s,mass_Mg,px_Mg.mm/s,IE_N.mm,wall_FNX_N.s,N1_DX,N1_VX,N1_AX\n0,1.19,-13222,0,0,0,-11.1,0\n"
+               "1e-4,1.19,-13000,500,-30,-1e-3,-11,9\n"));
+  EXPECT_EQ(set.format, "radioss_csv");
+  EXPECT_THAT(named(set, "mass").values, ElementsAre(DoubleEq(1190), DoubleEq(1190)));
+  EXPECT_THAT(named(set, "px").values, ElementsAre(-13222, -13000));
+  EXPECT_EQ(named(set, "IE").dimension, Dimension::energy);
+  EXPECT_THAT(named(set, "IE").values, ElementsAre(0, DoubleEq(0.5)));
+  EXPECT_EQ(named(set, "wall_FNX").dimension, Dimension::impulse);
+  EXPECT_THAT(named(set, "N1_VX").values, ElementsAre(-11.1, -11));
+  EXPECT_THAT(set.warnings, IsEmpty());
+}
+
+TEST(RadiossCsv, SizesThatNoVehicleHasInSiAreSaid) {
+  const test::TempDir dir;
+  const std::string header = "time,N1_DX,N1_VX,N1_AX\n";
+  const auto warnings = [&](const std::string& rows, const std::string& units) {
+    return read_traces(dir.file("t.csv", header + rows), {.channels = {}, .columns = "", .units = units}).warnings;
+  };
+  EXPECT_THAT(warnings("0,0,-11111,0\n1,-1,-11000,0\n", ""),
+              ElementsAre(HasSubstr("channel N1_VX reaches 11111 m/s, too much for a vehicle: are its units not SI?")));
+  EXPECT_THAT(warnings("0,0,-11.1,0\n150,-1,-11,0\n", ""), ElementsAre(HasSubstr("lasts 150 s, too long for a crash")));
+  EXPECT_THAT(warnings("0,0,-11111,0\n1,-1,-11000,0\n", "t-mm-s"), IsEmpty());
+}
+
+TEST(RadiossCsv, AnUnknownSystemOfUnitsIsRefused) {
+  const test::TempDir dir;
+  const std::string path = dir.file("t.csv", converted());
+  EXPECT_THAT([&] { read_traces(path, {.channels = {}, .columns = "", .units = "t-mm-h"}); },
+              ThrowsMessage<InvalidInput>(
+                  HasSubstr("units = 't-mm-h': unknown system of units; use kg-m-s, t-mm-s, kg-mm-ms or g-mm-ms")));
+}
+
+TEST(RadiossCsv, ConvertedAndNamedTablesOfOneRunAgree) {
+  const auto converted_path = test::shared_data("fe-car/C56/C56T01.csv");
+  const auto named_path = test::shared_data("fe-car/C56/C56_named.csv");
+  if (!converted_path || !named_path) GTEST_SKIP() << test::kNoSharedData;
+  ReadOptions options;
+  options.units = "t-mm-s";
+  const TraceSet a = read_traces(converted_path->string(), options), b = read_traces(named_path->string(), options);
+  ASSERT_EQ(a.traces[0].values.size(), 2000u);
+  EXPECT_EQ(*a.traces[0].time_s, *b.traces[0].time_s);
+  for (const char* node : {"LEFT_REAR", "RIGHT_MID", "BODY_TOP"})
+    for (const char* variable : {"DX", "VX", "AX", "DZ", "VZ", "AZ"}) {
+      const std::string name = fmt::format("{}_{}", node, variable);
+      EXPECT_EQ(named(a, name).values, named(b, name).values) << name;
+    }
+  EXPECT_EQ(named(a, "Barrier_FNX").values, named(b, "barrier_impulse_FNX").values);
+  EXPECT_EQ(named(a, "KINETIC ENERGY").values, named(b, "KE").values);
+}
+
+}  // namespace
+}  // namespace crashsim
