@@ -6,7 +6,6 @@
 #include "text.hpp"
 
 namespace crashsim {
-namespace {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -22,8 +21,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return row.back();
 }
-
-}  // namespace
 
 std::vector<std::string> nearest(std::string_view text, const std::vector<std::string>& candidates, std::size_t count) {
   const std::string wanted = to_lower(text);

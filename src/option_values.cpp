@@ -1,9 +1,11 @@
 #include <crashsim/option_values.hpp>
 
+#include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
+
+#include "nearest.hpp"
 
 namespace crashsim {
 namespace {
@@ -30,21 +32,6 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 Dimension dimension_of_field(std::string_view unit) { return unit.empty() ? Dimension::none : dimension_of(unit); }
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
-    }
-  }
-  return row.back();
-}
 
 }  // namespace
 
