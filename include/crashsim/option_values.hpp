@@ -95,11 +95,21 @@ void set_option(S& options, const Field<S>& field, const OptionValue& value, std
       field.member);
 }
 
+/// Whether a key names a field: its flag or its name, '-' and '_' alike.
+template <class S>
+bool is_key_of(std::string_view key, const Field<S>& field) {
+  const auto same = [key](std::string_view spelling) {
+    return std::equal(key.begin(), key.end(), spelling.begin(), spelling.end(),
+                      [](char a, char b) { return (a == '-' ? '_' : a) == (b == '-' ? '_' : b); });
+  };
+  return same(field.flag) || same(field.name);
+}
+
 /// Field whose flag or name this is. @throws InvalidInput naming the nearest known one; `what` names the table.
 template <class S>
 const Field<S>& find_field(std::string_view name, std::string_view what) {
   for (const Field<S>& field : fields<S>)
-    if (field.flag == name || field.name == name) return field;
+    if (is_key_of(name, field)) return field;
   std::vector<std::string_view> valid;
   for (const Field<S>& field : fields<S>) valid.push_back(field.flag);
   detail::throw_unknown_name(what, name, valid);
