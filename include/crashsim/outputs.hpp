@@ -1,0 +1,29 @@
+#pragma once
+/// The files that crashsim writes, as text. Each carries the record of what made it.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <crashsim/comparison.hpp>
+#include <crashsim/pulse.hpp>
+#include <crashsim/record.hpp>
+#include <crashsim/simulate.hpp>
+
+namespace crashsim {
+
+/// pulse.csv: `time_s,accel_mps2,velocity_mps,displacement_m`; mass, speed, channels, steps and warnings as comments.
+std::string format_pulse(const Pulse& pulse, const Record& record);
+
+/// response.csv: the same columns, then `spring_force_n,damper_force_n,energy_residual_j`.
+std::string format_response(const CrushResponse& response, double mass_kg, const Record& record);
+
+/// rating.json, or comparison.json when there are several: each under its name.
+std::string format_comparisons(const std::vector<std::pair<std::string, Comparison>>& comparisons,
+                               const Record& record);
+std::string format_comparison(const Comparison& comparison, const Record& record);
+
+/// case.lock.json: the record alone.
+std::string format_record(const Record& record);
+
+}  // namespace crashsim

@@ -1,0 +1,221 @@
+#include <crashsim/model_io.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <crashsim/error.hpp>
+#include <crashsim/files.hpp>
+#include <crashsim/option_values.hpp>
+
+#include "json.hpp"
+
+namespace crashsim {
+namespace {
+
+constexpr std::string_view kFormat = "crashsim.crush_model";
+constexpr int kVersionOfFormat = 1;
+constexpr std::string_view kSpringKnots = "knots_m", kDamperKnots = "knots_mps";
+constexpr std::string_view kDamperOrdinates = "ordinates_ns_per_m";
+
+struct Key {
+  std::string_view section, key, unit, doc, range, choices;
+};
+constexpr Key kKeys[] = {
+    {"", "format", "", "must be \"crashsim.crush_model\"", "", ""},
+    {"", "version", "", "version of the format: 1", "", ""},
+    {"", "title", "", "what it is a model of, for people", "", ""},
+    {"", "source", "", "where it comes from, for people", "", ""},
+    {"", "mass_kg", "kg", "test mass", "> 0", ""},
+    {"", "impact_speed_mps", "m/s", "speed it was identified at, the default of simulate", "> 0", ""},
+    {"", "law", "", "what the spring's ordinates are", "", "stiffness, force"},
+    {"", "extrapolation", "", "what a curve does beyond its last knot", "", "constant, linear, error"},
+    {"", "spring", "", "k(|x|); it or damper may be left out", "", ""},
+    {"", "damper", "", "c(|v|)", "", ""},
+    {"", "unloading", "", "behaviour after maximum crush", "", ""},
+    {"", "identification", "", "written by identify, not read", "", ""},
+    {"", "record", "", "written by crashsim: what made the file", "", ""},
+    {"spring", "knots_m", "m", "crush at the knots: first 0, increasing", "", ""},
+    {"spring", "ordinates_n_per_m", "N/m", "stiffness at the knots (law stiffness)", ">= 0", ""},
+    {"spring", "ordinates_n", "N", "force at the knots (law force)", ">= 0", ""},
+    {"damper", "knots_mps", "m/s", "speed at the knots: first 0, increasing", "", ""},
+    {"damper", "ordinates_ns_per_m", "N s/m", "damping at the knots", ">= 0", ""},
+    {"unloading", "kind", "", "path back", "", "elastic"},
+    {"unloading", "bilateral", "", "the barrier pulls, too: contact is never lost", "", "true, false"},
+};
+
+/// Keys of one table of the file.
+std::vector<std::string_view> keys_of(std::string_view section) {
+  std::vector<std::string_view> keys;
+  for (const Key& key : kKeys)
+    if (key.section == section) keys.push_back(key.key);
+  return keys;
+}
+
+std::string_view spring_ordinates(CrushLaw law) {
+  return law == CrushLaw::stiffness ? "ordinates_n_per_m" : "ordinates_n";
+}
+
+/// One JSON object of the file, for messages that say where.
+class Object {
+ public:
+  Object(const Json& json, std::string what) : json_(json), what_(std::move(what)) {
+    if (!json.is_object()) throw InvalidInput(fmt::format("{}: must be a JSON object {{..}}", what_));
+  }
+
+  void allow_only(std::vector<std::string_view> known) const {
+    for (const auto& [key, value] : json_.items())
+      if (std::find(known.begin(), known.end(), key) == known.end()) detail::throw_unknown_name(what_, key, known);
+  }
+  [[nodiscard]] bool has(std::string_view key) const { return json_.contains(key) && !json_[key].is_null(); }
+  [[nodiscard]] const Json& get(std::string_view key) const {
+    if (!has(key)) throw InvalidInput(fmt::format("{}: has no '{}'", what_, key));
+    return json_[key];
+  }
+  [[nodiscard]] OptionValue option(std::string_view key) const { return option_from_json(get(key), name(key)); }
+  [[nodiscard]] double number(std::string_view key) const { return detail::to_number(option(key), "", name(key)); }
+  [[nodiscard]] std::vector<double> numbers(std::string_view key) const {
+    return detail::to_numbers(option(key), "", name(key));
+  }
+  template <class E>
+  void read_choice(std::string_view key, E& value) const {
+    if (has(key)) value = static_cast<E>(detail::to_choice(option(key), enum_names<E>, name(key)));
+  }
+  [[nodiscard]] std::string name(std::string_view key) const { return fmt::format("{}: {}", what_, key); }
+
+ private:
+  const Json& json_;
+  std::string what_;
+};
+
+PiecewiseLinear read_curve(const Object& model, std::string_view name, std::string_view knots,
+                           std::string_view ordinates) {
+  if (!model.has(name)) return {};
+  const Object curve(model.get(name), model.name(name));
+  curve.allow_only({knots, ordinates});
+  return {curve.numbers(knots), curve.numbers(ordinates)};
+}
+
+void check_format(const Object& file, const std::string& path) {
+  if (file.get("format") != kFormat)
+    throw InvalidInput(fmt::format("{}: format = {}: must be \"{}\"", path, file.get("format").dump(), kFormat));
+  if (file.get("version") != kVersionOfFormat)
+    throw InvalidInput(fmt::format("{}: version = {}: this program reads version {}", path, file.get("version").dump(),
+                                   kVersionOfFormat));
+}
+
+CrushModel read(const Object& file) {
+  file.allow_only(keys_of(""));
+  CrushModel model;
+  model.mass_kg = file.number("mass_kg");
+  if (file.has("impact_speed_mps")) model.impact_speed_mps = file.number("impact_speed_mps");
+  file.read_choice("law", model.law);
+  file.read_choice("extrapolation", model.extrapolation);
+  model.spring = read_curve(file, "spring", kSpringKnots, spring_ordinates(model.law));
+  model.damper = read_curve(file, "damper", kDamperKnots, kDamperOrdinates);
+  if (file.has("unloading")) {
+    const Object unloading(file.get("unloading"), file.name("unloading"));
+    unloading.allow_only(keys_of("unloading"));
+    unloading.read_choice("kind", model.unloading.kind);
+    if (unloading.has("bilateral"))
+      model.unloading.bilateral = detail::to_bool(unloading.option("bilateral"), unloading.name("bilateral"));
+  }
+  return model;
+}
+
+Json curve_json(const PiecewiseLinear& curve, std::string_view knots, std::string_view ordinates) {
+  return {{std::string(knots), json_numbers(curve.knots)}, {std::string(ordinates), json_numbers(curve.ordinates)}};
+}
+
+/// One number per ordinate, spring and damper apart, under the names of the curves.
+template <class Get>
+Json per_curve(const Identification& fit, Get get) {
+  Json curves = Json::object();
+  const std::size_t springs = fit.model.spring.knots.size();
+  for (std::size_t i = 0; i < fit.ordinates.size(); ++i)
+    curves[i < springs ? "spring" : "damper"].push_back(json_number(get(fit.ordinates[i])));
+  return curves;
+}
+
+template <class Is>
+Json names_where(const Identification& fit, Is is) {
+  Json names = Json::array();
+  for (const OrdinateReport& ordinate : fit.ordinates)
+    if (is(ordinate)) names.push_back(ordinate.name);
+  return names;
+}
+
+Json verdict_json(const Verdict& verdict) {
+  return {{"identifiable", verdict.identifiable},
+          {"rank", verdict.rank},
+          {"condition", json_number(verdict.condition)},
+          {"spring_damper_cosine", json_number(verdict.spring_damper_cosine)},
+          {"message", verdict.message}};
+}
+
+// Wall time is left out: a record run again gives the same bytes.
+Json identification_json(const Identification& fit) {
+  Json json = {{"outcome", name_of(fit.outcome)},
+               {"error", json_number(fit.error.total)},
+               {"error_accel", json_number(fit.error.accel)},
+               {"error_velocity", json_number(fit.error.velocity)},
+               {"error_displacement", json_number(fit.error.displacement)},
+               {"starts", fit.starts.size()},
+               {"starts_at_best", fit.starts_at_best},
+               {"verdict", verdict_json(fit.verdict)},
+               {"standard_error", per_curve(fit, [](const OrdinateReport& o) { return o.standard_error; })},
+               {"upper_bound", per_curve(fit, [](const OrdinateReport& o) { return o.upper_bound; })},
+               {"at_bound", names_where(fit, [](const OrdinateReport& o) { return o.at_bound; })},
+               {"untouched", names_where(fit, [](const OrdinateReport& o) { return o.untouched; })},
+               {"evaluations", fit.evaluations},
+               {"seed", fit.seed}};
+  json["correlation"] = Json::array();
+  for (const std::vector<double>& row : fit.correlation) json["correlation"].push_back(json_numbers(row));
+  json["start_errors"] = Json::array();
+  for (const StartReport& start : fit.starts) json["start_errors"].push_back(json_number(start.error));
+  return json;
+}
+
+}  // namespace
+
+std::vector<FileKey> model_keys() {
+  std::vector<FileKey> keys;
+  for (const Key& key : kKeys)
+    keys.push_back(
+        {std::string(key.section),
+         std::string(key.key),
+         {std::string(key.unit), std::string(key.doc), "", std::string(key.range), std::string(key.choices)}});
+  return keys;
+}
+
+CrushModel read_model(const std::string& path) {
+  const Json json = parse_json(read_file(path), path);
+  const Object file(json, path);
+  check_format(file, path);
+  const CrushModel model = read(file);
+  try {
+    validate(model);
+  } catch (const InvalidInput& problem) {
+    throw InvalidInput(fmt::format("{}: {}", path, problem.what()));
+  }
+  return model;
+}
+
+std::string format_model(const CrushModel& model, const Identification* identification, const Record* record) {
+  validate(model);
+  Json json = {{"format", kFormat}, {"version", kVersionOfFormat}, {"mass_kg", model.mass_kg}};
+  if (!std::isnan(model.impact_speed_mps)) json["impact_speed_mps"] = model.impact_speed_mps;
+  json["law"] = name_of(model.law);
+  json["extrapolation"] = name_of(model.extrapolation);
+  if (!model.spring.knots.empty()) json["spring"] = curve_json(model.spring, kSpringKnots, spring_ordinates(model.law));
+  if (!model.damper.knots.empty()) json["damper"] = curve_json(model.damper, kDamperKnots, kDamperOrdinates);
+  json["unloading"] = {{"kind", name_of(model.unloading.kind)}, {"bilateral", model.unloading.bilateral}};
+  if (identification != nullptr) json["identification"] = identification_json(*identification);
+  if (record != nullptr) json["record"] = Json::parse(to_json(*record));
+  return format_json(json);
+}
+
+}  // namespace crashsim

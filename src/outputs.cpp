@@ -1,0 +1,93 @@
+#include <crashsim/outputs.hpp>
+
+#include <cmath>
+#include <string_view>
+
+#include <crashsim/table_io.hpp>
+#include <crashsim/units.hpp>
+
+#include "json.hpp"
+
+namespace crashsim {
+namespace {
+
+Comments header(const Record& record, double mass_kg, double impact_speed_mps) {
+  Comments comments = {{"crashsim", record.version}};
+  if (!std::isnan(mass_kg)) comments.emplace_back("mass_kg", format_number(mass_kg));
+  comments.emplace_back("impact_speed_mps", format_number(impact_speed_mps));
+  return comments;
+}
+
+Json record_json(const Record& record) { return Json::parse(to_json(record)); }
+
+template <class S, std::size_t N>
+Json numbers_json(const S& numbers, const std::array<NamedNumber<S>, N>& table) {
+  Json json = Json::object();
+  for (const NamedNumber<S>& field : table) json[std::string(field.name)] = json_number(numbers.*field.member);
+  return json;
+}
+
+Json channel_json(const ChannelComparison& channel) {
+  Json rating = numbers_json(channel.rating, kRatingFields);
+  rating["grade"] = grade(channel.rating.overall);
+  if (!channel.not_rated.empty()) rating["not_rated"] = channel.not_rated;
+  return {{"name", channel.name},
+          {"unit", channel.unit},
+          {"errors", numbers_json(channel.errors, kErrorFields)},
+          {"iso18571", rating}};
+}
+
+Json comparison_json(const Comparison& comparison) {
+  Json json = {{"start_s", json_number(comparison.start_s)},
+               {"end_s", json_number(comparison.end_s)},
+               {"dt_s", json_number(comparison.dt_s)},
+               {"channels", Json::array()},
+               {"notes", comparison.notes}};
+  for (const ChannelComparison& channel : comparison.channels) json["channels"].push_back(channel_json(channel));
+  return json;
+}
+
+}  // namespace
+
+std::string format_pulse(const Pulse& pulse, const Record& record) {
+  Comments comments = header(record, pulse.mass_kg, pulse.impact_speed_mps);
+  for (const std::string& channel : pulse.channels) comments.emplace_back("channel", channel);
+  for (const std::string& step : pulse.steps) comments.emplace_back("step", step);
+  for (const std::string& warning : pulse.warnings) comments.emplace_back("warning", warning);
+  comments.emplace_back("record", to_json(record));
+  return format_csv(comments, {{"time_s", pulse.time_s},
+                               {"accel_mps2", pulse.accel_mps2},
+                               {"velocity_mps", pulse.velocity_mps},
+                               {"displacement_m", pulse.displacement_m}});
+}
+
+std::string format_response(const CrushResponse& response, double mass_kg, const Record& record) {
+  Comments comments = header(record, mass_kg, response.impact_speed_mps);
+  comments.emplace_back("outcome", std::string(name_of(response.outcome)));
+  comments.emplace_back("record", to_json(record));
+  return format_csv(comments, {{"time_s", response.time_s},
+                               {"accel_mps2", response.accel_mps2},
+                               {"velocity_mps", response.velocity_mps},
+                               {"displacement_m", response.displacement_m},
+                               {"spring_force_n", response.spring_force_n},
+                               {"damper_force_n", response.damper_force_n},
+                               {"energy_residual_j", response.energy_residual_j}});
+}
+
+std::string format_comparison(const Comparison& comparison, const Record& record) {
+  Json json = comparison_json(comparison);
+  json["record"] = record_json(record);
+  return format_json(json);
+}
+
+std::string format_comparisons(const std::vector<std::pair<std::string, Comparison>>& comparisons,
+                               const Record& record) {
+  Json json = Json::object();
+  for (const auto& [name, comparison] : comparisons) json[name] = comparison_json(comparison);
+  json["record"] = record_json(record);
+  return format_json(json);
+}
+
+std::string format_record(const Record& record) { return format_json(record_json(record)); }
+
+}  // namespace crashsim

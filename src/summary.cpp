@@ -1,0 +1,94 @@
+#include <crashsim/summary.hpp>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "json.hpp"
+
+namespace crashsim {
+namespace {
+
+void append_metrics(const Metrics& metrics, Summary& summary) {
+  for (const MetricField& field : kMetricFields)
+    summary.push_back({std::string(field.name), metrics.*field.member, std::string(field.doc)});
+}
+
+Json to_json(const SummaryValue& value) {
+  return std::visit(
+      [](const auto& held) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, double>)
+          return json_number(held);
+        else
+          return held;
+      },
+      value);
+}
+
+Json to_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const SummaryItem& item : summary) json[item.name] = to_json(item.value);
+  return json;
+}
+
+}  // namespace
+
+Metrics metrics_of(const Pulse& pulse) {
+  return metrics({pulse.time_s, pulse.accel_mps2, pulse.velocity_mps, pulse.displacement_m}, pulse.mass_kg);
+}
+
+Metrics metrics_of(const CrushResponse& response, double mass_kg) {
+  Metrics out =
+      metrics({response.time_s, response.accel_mps2, response.velocity_mps, response.displacement_m}, mass_kg);
+  out.t_m_s = response.t_m_s;
+  out.max_crush_m = response.max_crush_m;
+  out.centroid_s = response.max_crush_m / response.impact_speed_mps;
+  if (std::isnan(response.separation_s)) return out;
+  out.static_crush_m = response.static_crush_m;
+  out.rebound_velocity_mps = response.rebound_velocity_mps;
+  out.restitution = -response.rebound_velocity_mps / response.impact_speed_mps;
+  return out;
+}
+
+Summary summarize(const Pulse& pulse) {
+  const CrushOutcome outcome = std::isnan(pulse.t_m_s) ? CrushOutcome::no_max_crush : CrushOutcome::completed;
+  Summary summary = {{"outcome", std::string(name_of(outcome)), "outcome"},
+                     {"mass_kg", pulse.mass_kg, "test mass"},
+                     {"impact_speed_mps", pulse.impact_speed_mps, "impact speed"}};
+  append_metrics(metrics_of(pulse), summary);
+  return summary;
+}
+
+Summary summarize(const CrushResponse& response, double mass_kg) {
+  Summary summary = {{"outcome", std::string(name_of(response.outcome)), "outcome"},
+                     {"mass_kg", mass_kg, "mass"},
+                     {"impact_speed_mps", response.impact_speed_mps, "impact speed"}};
+  append_metrics(metrics_of(response, mass_kg), summary);
+  return summary;
+}
+
+Summary summarize(const Identification& fit) {
+  return {{"outcome", std::string(name_of(fit.outcome)), "outcome"},
+          {"error", fit.error.total, "error E of the fit"},
+          {"error_accel", fit.error.accel, "its part of acceleration"},
+          {"error_velocity", fit.error.velocity, "its part of velocity"},
+          {"error_displacement", fit.error.displacement, "its part of displacement"},
+          {"starts", static_cast<std::int64_t>(fit.starts.size()), "starts"},
+          {"starts_at_best", std::int64_t{fit.starts_at_best}, "starts within 0.1 % of the best"},
+          {"identifiable", fit.verdict.identifiable, "every ordinate determined"},
+          {"rank", std::int64_t{fit.verdict.rank}, "rank of the sensitivities"},
+          {"condition", fit.verdict.condition, "their condition number"},
+          {"verdict", fit.verdict.message, "verdict"},
+          {"evaluations", std::int64_t{fit.evaluations}, "evaluations of E and its gradient"},
+          {"seconds", fit.seconds, "wall time"}};
+}
+
+std::string format_summary(const Summary& summary) { return format_json(to_json(summary)); }
+
+std::string format_summary(const Summary& summary, const std::vector<std::pair<std::string, Summary>>& parts) {
+  Json json = to_json(summary);
+  for (const auto& [name, part] : parts) json[name] = to_json(part);
+  return format_json(json);
+}
+
+}  // namespace crashsim
