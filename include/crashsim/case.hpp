@@ -1,0 +1,110 @@
+#pragma once
+/// A case: one study from trace to judged model, described by a file.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <crashsim/comparison.hpp>
+#include <crashsim/config.hpp>
+#include <crashsim/identify.hpp>
+#include <crashsim/option_docs.hpp>
+#include <crashsim/pulse.hpp>
+#include <crashsim/record.hpp>
+#include <crashsim/simulate.hpp>
+#include <crashsim/summary.hpp>
+
+namespace crashsim {
+
+/// What a case says of vehicle, impact, pulse file and model beside the options of the steps.
+struct CaseOptions {
+  std::string title;                                 ///< Of the study, for people.
+  double mass_kg = kUnset;                           ///< [vehicle] mass; unset: the pulse file's.
+  double impact_speed_mps = kUnset;                  ///< [impact] speed; unset: the pulse file's.
+  std::string pulse_file;                            ///< [pulse] file; "" when a model is only simulated.
+  std::string model_file;                            ///< [crush] model: used as it is, nothing is identified.
+  UnloadingKind unloading = UnloadingKind::elastic;  ///< [crush] unloading
+  bool bilateral = false;                            ///< [crush] bilateral
+  std::vector<std::string> further_pulses;           ///< [identify] pulses: further tests of the same structure.
+  std::vector<double> speeds_mps;                    ///< [predict] speeds
+
+  bool operator==(const CaseOptions&) const = default;
+};
+inline constexpr std::array<Field<CaseOptions>, 9> kCaseFields = {{
+    {"title", "title", "", "what the study is about", &CaseOptions::title},
+    {"mass_kg", "vehicle.mass", "kg", "test mass; default: the pulse file's", &CaseOptions::mass_kg, positive()},
+    {"impact_speed_mps", "impact.speed", "m/s", "impact speed; default: the pulse file's",
+     &CaseOptions::impact_speed_mps, positive()},
+    {"pulse_file", "pulse.file", "", "trace or pulse.csv of the test", &CaseOptions::pulse_file},
+    {"model_file", "crush.model", "", "model.json to use instead of identifying one", &CaseOptions::model_file},
+    {"unloading", "crush.unloading", "", "behaviour after maximum crush", choice<&CaseOptions::unloading>()},
+    {"bilateral", "crush.bilateral", "", "the barrier pulls, too: contact is never lost", &CaseOptions::bilateral},
+    {"further_pulses", "identify.pulses", "", "further tests of the same structure, fitted together",
+     &CaseOptions::further_pulses},
+    {"speeds_mps", "predict.speeds", "m/s", "speeds to predict", &CaseOptions::speeds_mps},
+}};
+template <>
+inline constexpr std::span<const Field<CaseOptions>> fields<CaseOptions>{kCaseFields};
+
+/// One study. Paths inside are relative to the folder of the case file.
+struct Case {
+  std::string path;  ///< As given.
+  CaseOptions what;
+  PulseOptions pulse;          ///< [pulse]
+  IdentifyOptions identify;    ///< [identify]; law and knots stand in [crush]
+  SimulateOptions simulation;  ///< [simulate]
+  CompareOptions comparison;   ///< [compare]
+};
+
+/// Every key of a case file, section by section.
+std::vector<FileKey> case_keys();
+
+/// Reads a case: TOML, or the record of a case that was run (case.lock.json), whose inputs are checked.
+/// @throws InvalidInput with path, line, key and rule, or the nearest known key.
+Case read_case(const std::string& path);
+
+/// The case as entries of a record: every option, set or default.
+std::vector<ConfigEntry> entries_of(const Case& study);
+
+/// Simulation at another speed.
+struct Prediction {
+  std::string name;  ///< "40kmh"
+  CrushResponse response;
+};
+
+/// What a case gives.
+struct CaseResult {
+  std::optional<Pulse> pulse;
+  std::optional<Identification> identification;
+  CrushModel model;
+  CrushResponse response;
+  std::vector<Prediction> predictions;
+  std::vector<std::pair<std::string, Comparison>> comparisons;  ///< "to_max_crush" and "whole_record"
+  std::vector<std::string> input_files;
+
+  /// True when every step gave a result to rely on.
+  [[nodiscard]] bool usable() const;
+};
+
+/// Runs a case. @throws InvalidInput on bad options, files or values.
+CaseResult run_case(const Case& study, const Progress& progress = {});
+
+/// Summary of a result: of the model's response, and parts "pulse", "identification", "comparison".
+Summary summarize(const CaseResult& result);
+std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& result);
+
+/// One file of a case directory.
+struct CaseFile {
+  std::string name, text;
+};
+
+/// Names of the files that a case will write, in the order of case_files().
+std::vector<std::string> case_file_names(const Case& study);
+
+/// The files of a case directory: pulse.csv, model.json, response.csv, prediction_*.csv, comparison.json, summary.json
+/// and, last, case.lock.json, the record.
+std::vector<CaseFile> case_files(const Case& study, const CaseResult& result);
+
+}  // namespace crashsim

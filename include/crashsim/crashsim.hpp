@@ -1,0 +1,33 @@
+#pragma once
+/// The whole public interface.
+
+#include <crashsim/case.hpp>
+#include <crashsim/comparison.hpp>
+#include <crashsim/config.hpp>
+#include <crashsim/crush_model.hpp>
+#include <crashsim/error.hpp>
+#include <crashsim/files.hpp>
+#include <crashsim/heave_pitch_model.hpp>
+#include <crashsim/identify.hpp>
+#include <crashsim/metrics.hpp>
+#include <crashsim/model_io.hpp>
+#include <crashsim/named_number.hpp>
+#include <crashsim/option_docs.hpp>
+#include <crashsim/option_values.hpp>
+#include <crashsim/options.hpp>
+#include <crashsim/outputs.hpp>
+#include <crashsim/piecewise_linear.hpp>
+#include <crashsim/pulse.hpp>
+#include <crashsim/rating.hpp>
+#include <crashsim/record.hpp>
+#include <crashsim/signal.hpp>
+#include <crashsim/simulate.hpp>
+#include <crashsim/simulate_pitch.hpp>
+#include <crashsim/solver_statistics.hpp>
+#include <crashsim/summary.hpp>
+#include <crashsim/table_io.hpp>
+#include <crashsim/time_series.hpp>
+#include <crashsim/trace.hpp>
+#include <crashsim/trace_io.hpp>
+#include <crashsim/units.hpp>
+#include <crashsim/version.hpp>

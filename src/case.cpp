@@ -1,0 +1,116 @@
+#include <crashsim/case.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <crashsim/error.hpp>
+#include <crashsim/model_io.hpp>
+#include <crashsim/units.hpp>
+
+namespace crashsim {
+namespace {
+
+/// A path in a case file as seen from where the program runs.
+std::string resolved(const Case& study, const std::string& path) {
+  return (std::filesystem::path(study.path).parent_path() / path).lexically_normal().string();
+}
+
+Pulse read_case_pulse(const Case& study, const std::string& file, double impact_speed_mps, CaseResult& out) {
+  PulseOptions options = study.pulse;
+  options.mass_kg = study.what.mass_kg;
+  options.impact_speed_mps = impact_speed_mps;
+  Pulse pulse = read_pulse(resolved(study, file), options);
+  out.input_files.insert(out.input_files.end(), pulse.input_files.begin(), pulse.input_files.end());
+  return pulse;
+}
+
+/// Identifies the model. False when there is none to go on with.
+bool identify_model(const Case& study, const Progress& progress, CaseResult& out) {
+  std::vector<Pulse> pulses = {*out.pulse};
+  for (const std::string& file : study.what.further_pulses) pulses.push_back(read_case_pulse(study, file, kUnset, out));
+  IdentifyOptions options = study.identify;
+  options.mass_kg = study.what.mass_kg;
+  out.identification = identify(pulses, options, progress);
+  out.model = out.identification->model;
+  return !out.identification->ordinates.empty();
+}
+
+TraceSet trace_set(std::string path, const std::vector<double>& time_s,
+                   std::initializer_list<std::tuple<const char*, Dimension, const std::vector<double>*>> channels) {
+  TraceSet set;
+  set.path = std::move(path);
+  const auto times = std::make_shared<const std::vector<double>>(time_s);
+  for (const auto& [name, dimension, values] : channels) {
+    Trace trace;
+    trace.name = name;
+    trace.id = std::to_string(set.traces.size() + 2);
+    trace.dimension = dimension;
+    trace.time_s = times;
+    trace.values = *values;
+    set.traces.push_back(std::move(trace));
+  }
+  return set;
+}
+
+template <class Motion>
+TraceSet motion_set(std::string path, const Motion& motion) {
+  return trace_set(std::move(path), motion.time_s,
+                   {{"accel_mps2", Dimension::acceleration, &motion.accel_mps2},
+                    {"velocity_mps", Dimension::speed, &motion.velocity_mps},
+                    {"displacement_m", Dimension::length, &motion.displacement_m}});
+}
+
+/// The test against the model: up to maximum crush, which the identification looks at, and over the whole record.
+void compare_with_test(const Case& study, CaseResult& out) {
+  const TraceSet test = motion_set("pulse", *out.pulse), model = motion_set("response", out.response);
+  CompareOptions to_max_crush = study.comparison;
+  to_max_crush.end_s = std::fmin(study.comparison.end_s, out.pulse->t_m_s);
+  if (!std::isnan(out.pulse->t_m_s)) out.comparisons.emplace_back("to_max_crush", compare(test, model, to_max_crush));
+  out.comparisons.emplace_back("whole_record", compare(test, model, study.comparison));
+}
+
+SimulateOptions at_speed(const Case& study, double impact_speed_mps) {
+  SimulateOptions options = study.simulation;
+  options.impact_speed_mps = impact_speed_mps;
+  return options;
+}
+
+}  // namespace
+
+bool CaseResult::usable() const {
+  const auto is_usable = [](const Prediction& prediction) { return prediction.response.usable(); };
+  return (!identification || identification->usable()) && response.usable() &&
+         std::all_of(predictions.begin(), predictions.end(), is_usable);
+}
+
+CaseResult run_case(const Case& study, const Progress& progress) {
+  CaseResult out;
+  if (!study.what.pulse_file.empty())
+    out.pulse = read_case_pulse(study, study.what.pulse_file, study.what.impact_speed_mps, out);
+  if (!study.what.model_file.empty()) {
+    const std::string path = resolved(study, study.what.model_file);
+    out.model = read_model(path);
+    out.input_files.push_back(path);
+  } else if (!identify_model(study, progress, out)) {
+    return out;
+  }
+  out.model.unloading = {study.what.unloading, study.what.bilateral};
+
+  double speed = study.what.impact_speed_mps;
+  if (std::isnan(speed) && out.pulse) speed = out.pulse->impact_speed_mps;
+  SimulateOptions options = at_speed(study, speed);
+  if (std::isnan(options.end_time_s) && !options.to_max_crush && out.pulse)
+    options.end_time_s = out.pulse->time_s.back();
+  out.response = simulate(out.model, options);
+  for (const double predicted : study.what.speeds_mps)
+    out.predictions.push_back(
+        {fmt::format("{:.4g}kmh", 3.6 * predicted), simulate(out.model, at_speed(study, predicted))});
+  if (out.pulse && !out.response.time_s.empty()) compare_with_test(study, out);
+  return out;
+}
+
+}  // namespace crashsim

@@ -1,0 +1,110 @@
+/// Case files: read from TOML or a record, and written as one.
+
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <crashsim/error.hpp>
+#include <crashsim/option_values.hpp>
+
+#include "case_sections.hpp"
+#include "nearest.hpp"
+
+namespace crashsim {
+namespace {
+
+/// Section and key of a field of CaseOptions: "pulse.file".
+std::pair<std::string_view, std::string_view> split_flag(std::string_view section, std::string_view flag) {
+  const std::size_t dot = flag.find('.');
+  if (!section.empty() || dot == std::string_view::npos) return {section, flag};
+  return {flag.substr(0, dot), flag.substr(dot + 1)};
+}
+
+[[noreturn]] void refuse_key(const ConfigEntry& entry, const std::vector<FileKey>& keys) {
+  std::vector<std::string_view> sections, here;
+  for (const FileKey& key : keys) {
+    if (sections.empty() || sections.back() != key.section) sections.push_back(key.section);
+    if (key.section == entry.section) here.push_back(key.key);
+  }
+  std::erase(sections, "");
+  if (here.empty()) detail::throw_unknown_name(entry.where, "[" + entry.section + "]", sections);
+  const std::string what = entry.section.empty() ? entry.where : fmt::format("{}: [{}]", entry.where, entry.section);
+  detail::throw_unknown_name(what, entry.key, here);
+}
+
+void set(Case& study, const ConfigEntry& entry) {
+  bool known = false;
+  for_each_key(study, [&](std::string_view section, const auto& field, auto& options) {
+    const auto [its_section, key] = split_flag(section, field.flag);
+    auto named = field;
+    named.flag = key;
+    if (section.empty()) named.name = key;
+    if (known || its_section != entry.section || !is_key_of(entry.key, named)) return;
+    const std::string path = its_section.empty() ? "" : fmt::format("[{}] ", its_section);
+    set_option(options, field, entry.value, fmt::format("{}: {}{}", entry.where, path, entry.key));
+    known = true;
+  });
+  if (!known) refuse_key(entry, case_keys());
+}
+
+void check(const Case& study) {
+  if (study.what.pulse_file.empty() && study.what.model_file.empty())
+    throw InvalidInput(
+        fmt::format("{}: has neither [pulse] file nor [crush] model: name a trace to identify a model from, or a model "
+                    "to simulate",
+                    study.path));
+  if (!study.what.model_file.empty() && !study.what.further_pulses.empty())
+    throw InvalidInput(
+        fmt::format("{}: [identify] pulses do not go with [crush] model, which is used as it is", study.path));
+}
+
+}  // namespace
+
+std::vector<FileKey> case_keys() {
+  Case defaults;
+  std::vector<FileKey> keys;
+  for_each_key(defaults, [&](std::string_view section, const auto& field, const auto& options) {
+    const auto [its_section, key] = split_flag(section, field.flag);
+    keys.push_back({std::string(its_section), std::string(key), describe_field(field, options)});
+  });
+  std::stable_sort(keys.begin(), keys.end(), [](const FileKey& a, const FileKey& b) {
+    const auto rank = [](const std::string& name) {
+      constexpr std::string_view kOrder[] = {"",         "vehicle",  "impact",  "pulse",  "crush",
+                                             "identify", "simulate", "compare", "predict"};
+      return std::find(std::begin(kOrder), std::end(kOrder), name) - std::begin(kOrder);
+    };
+    return rank(a.section) < rank(b.section);
+  });
+  return keys;
+}
+
+Case read_case(const std::string& path) {
+  Case study;
+  study.path = path;
+  std::vector<ConfigEntry> entries;
+  if (const auto record = find_record(path)) {
+    if (record->command != "run" || record->arguments.size() != 1)
+      throw InvalidInput(fmt::format("{}: is the record of 'crashsim {}', not of a case", path, record->command));
+    verify_inputs(*record);
+    study.path = record->arguments.front();
+    entries = record->options;
+  } else {
+    entries = read_config(path);
+  }
+  for (const ConfigEntry& entry : entries) set(study, entry);
+  check(study);
+  return study;
+}
+
+std::vector<ConfigEntry> entries_of(const Case& study) {
+  std::vector<ConfigEntry> entries;
+  for_each_key(study, [&](std::string_view section, const auto& field, const auto& options) {
+    const auto [its_section, key] = split_flag(section, field.flag);
+    entries.push_back({std::string(its_section), std::string(key), get_option(options, field), ""});
+  });
+  return entries;
+}
+
+}  // namespace crashsim

@@ -1,0 +1,79 @@
+/// What a case leaves behind: its summary and the files of its directory.
+
+#include <fmt/format.h>
+
+#include <crashsim/case.hpp>
+#include <crashsim/model_io.hpp>
+#include <crashsim/outputs.hpp>
+
+namespace crashsim {
+namespace {
+
+constexpr const char* kPulse = "pulse.csv";
+constexpr const char* kModel = "model.json";
+constexpr const char* kResponse = "response.csv";
+constexpr const char* kComparison = "comparison.json";
+constexpr const char* kSummary = "summary.json";
+constexpr const char* kRecord = "case.lock.json";
+
+std::string prediction_file(double speed_mps) { return fmt::format("prediction_{:.4g}kmh.csv", 3.6 * speed_mps); }
+
+/// Overall ratings of one comparison, channel by channel.
+Summary ratings_of(const Comparison& comparison) {
+  Summary ratings;
+  for (const ChannelComparison& channel : comparison.channels)
+    ratings.push_back({channel.name, channel.rating.overall, "ISO/TS 18571 rating of " + channel.name});
+  return ratings;
+}
+
+}  // namespace
+
+Summary summarize(const CaseResult& result) {
+  if (result.response.outcome != CrushOutcome::not_run) return summarize(result.response, result.model.mass_kg);
+  return {{"outcome", std::string(name_of(result.identification->outcome)), "outcome"}};
+}
+
+std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& result) {
+  std::vector<std::pair<std::string, Summary>> parts;
+  if (result.pulse) parts.emplace_back("pulse", summarize(*result.pulse));
+  if (result.identification) {
+    Summary fit = summarize(*result.identification);
+    std::erase_if(fit, [](const SummaryItem& item) { return item.name == "seconds"; });  // the same bytes every time
+    parts.emplace_back("identification", std::move(fit));
+  }
+  for (const auto& [name, comparison] : result.comparisons)
+    parts.emplace_back("rating_" + name, ratings_of(comparison));
+  for (const Prediction& prediction : result.predictions)
+    parts.emplace_back("prediction_" + prediction.name, summarize(prediction.response, result.model.mass_kg));
+  return parts;
+}
+
+std::vector<std::string> case_file_names(const Case& study) {
+  std::vector<std::string> names;
+  if (!study.what.pulse_file.empty()) names.emplace_back(kPulse);
+  names.insert(names.end(), {kModel, kResponse});
+  for (const double speed : study.what.speeds_mps) names.push_back(prediction_file(speed));
+  if (!study.what.pulse_file.empty()) names.emplace_back(kComparison);
+  names.insert(names.end(), {kSummary, kRecord});
+  return names;
+}
+
+std::vector<CaseFile> case_files(const Case& study, const CaseResult& result) {
+  const Record record = make_record("run", {study.path}, entries_of(study), result.input_files);
+  std::vector<CaseFile> files;
+  if (result.pulse) files.push_back({kPulse, format_pulse(*result.pulse, record)});
+  if (result.response.outcome != CrushOutcome::not_run) {
+    const Identification* fit = result.identification ? &*result.identification : nullptr;
+    files.push_back({kModel, format_model(result.model, fit, &record)});
+    files.push_back({kResponse, format_response(result.response, result.model.mass_kg, record)});
+  }
+  for (std::size_t i = 0; i < result.predictions.size(); ++i)
+    files.push_back({prediction_file(study.what.speeds_mps[i]),
+                     format_response(result.predictions[i].response, result.model.mass_kg, record)});
+  if (!result.comparisons.empty()) files.push_back({kComparison, format_comparisons(result.comparisons, record)});
+  files.push_back({kSummary, format_summary(summarize(result), summary_parts(result))});
+  files.push_back({kRecord, format_record(record)});
+  return files;
+}
+
+}  // namespace crashsim

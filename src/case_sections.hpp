@@ -1,0 +1,58 @@
+#pragma once
+/// Which options stand in which table of a case file: the one list from which cases are read, recorded and documented.
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include <crashsim/case.hpp>
+
+namespace crashsim {
+
+/// A table of the case file that holds fields of one options struct.
+template <class S>
+struct CaseSection {
+  std::string_view name;
+  S Case::*member;
+  std::vector<std::string_view> only;    ///< Flags that stand here; empty: all but `except`.
+  std::vector<std::string_view> except;  ///< Flags that do not.
+
+  [[nodiscard]] bool offers(const Field<S>& field) const {
+    const auto holds = [&](const std::vector<std::string_view>& list) {
+      return std::find(list.begin(), list.end(), field.flag) != list.end();
+    };
+    return only.empty() ? !holds(except) : holds(only);
+  }
+};
+
+/// Fields of the identification that describe the model.
+inline const std::vector<std::string_view> kCrushFlags = {"law", "extrapolation", "spring-knots", "damper-knots",
+                                                          "knots"};
+
+inline auto case_sections() {
+  std::vector<std::string_view> not_in_identify = kCrushFlags;
+  not_in_identify.insert(not_in_identify.end(), {"mass"});
+  return std::tuple(CaseSection<PulseOptions>{"pulse", &Case::pulse, {}, {"mass", "speed"}},
+                    CaseSection<IdentifyOptions>{"crush", &Case::identify, kCrushFlags, {}},
+                    CaseSection<IdentifyOptions>{"identify", &Case::identify, {}, not_in_identify},
+                    CaseSection<SimulateOptions>{"simulate", &Case::simulation, {}, {"speed", "times"}},
+                    CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}});
+}
+
+/// Calls visit(section name, field, options of that section) for every key; the fields of CaseOptions name their own
+/// section in their flag ("pulse.file").
+template <class SomeCase, class Visit>
+void for_each_key(SomeCase& study, Visit visit) {
+  for (const Field<CaseOptions>& field : fields<CaseOptions>) visit(std::string_view(), field, study.what);
+  const auto visit_section = [&](const auto& section) {
+    auto& options = study.*section.member;
+    using S = std::remove_cvref_t<decltype(options)>;
+    for (const Field<S>& field : fields<S>)
+      if (section.offers(field)) visit(section.name, field, options);
+  };
+  std::apply([&](const auto&... section) { (visit_section(section), ...); }, case_sections());
+}
+
+}  // namespace crashsim
