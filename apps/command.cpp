@@ -1,0 +1,165 @@
+#include "command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "interrupt.hpp"
+
+namespace crashsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNameWidth = 32;
+
+/// How a number is shown: scaled to a unit that people read it in.
+struct Shown {
+  std::string_view suffix;
+  double factor;
+  std::string_view unit;
+};
+constexpr Shown kShown[] = {
+    // the longest suffix first
+    {"_ns_per_m", 1e-3, "kN s/m"},
+    {"_n_per_m", 1e-3, "kN/m"},
+    {"_mps2", 1.0, "m/s^2"},
+    {"_mps", 1.0, "m/s"},
+    {"_kg", 1.0, "kg"},
+    {"_rad", 1.0, "rad"},
+    {"_m", 1e3, "mm"},
+    {"_s", 1e3, "ms"},
+    {"_g", 1.0, "g"},
+    {"_n", 1e-3, "kN"},
+    {"_j", 1e-3, "kJ"},
+};
+
+std::string shown_number(std::string_view name, double value) {
+  if (std::isnan(value)) return "-";
+  if (name == "seconds") return fmt::format("{:.3g} s", value);
+  for (const Shown& shown : kShown)
+    if (name.ends_with(shown.suffix)) return fmt::format("{:.5g} {}", value * shown.factor, shown.unit);
+  return fmt::format("{:.5g}", value);
+}
+
+std::string shown_value(const SummaryItem& item) {
+  if (const auto* number = std::get_if<double>(&item.value)) return shown_number(item.name, *number);
+  if (const auto* count = std::get_if<std::int64_t>(&item.value)) return fmt::format("{}", *count);
+  if (const auto* flag = std::get_if<bool>(&item.value)) return *flag ? "yes" : "no";
+  return std::get<std::string>(item.value);
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
+}  // namespace
+
+Command::Command(CLI::App& parent, const std::string& name, const std::string& what, const std::string& example)
+    : app_(*parent.add_subcommand(name, what)) {
+  app_.footer("Example:\n  " + example);
+}
+
+void Command::add_output(const std::string& type_name, const std::string& what) {
+  app_.add_option("-o,--output", output_, what)
+      ->type_name(type_name)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app_.add_flag("--force", force_, "replace an output that exists");
+}
+
+void Command::add_reporting() {
+  app_.add_flag("--json", json_, "summary as JSON on standard output");
+  app_.add_flag("--quiet", quiet_, "no summary on standard error");
+  app_.add_option("--config", config_, "options from a TOML file; the command line wins")->type_name("FILE");
+}
+
+std::vector<ConfigEntry> Command::config_entries() const {
+  if (config_.empty()) return {};
+  const auto commands = app_.get_parent()->get_subcommands(nullptr);
+  std::vector<ConfigEntry> entries;
+  for (const ConfigEntry& entry : read_config(config_)) {
+    const auto is_named = [&](const CLI::App* command) { return command->get_name() == entry.section; };
+    if (!entry.section.empty() && std::none_of(commands.begin(), commands.end(), is_named))
+      throw InvalidInput(fmt::format("{}: [{}] is no subcommand: options of this one stand in [{}] or before any table",
+                                     entry.where, entry.section, app_.get_name()));
+    if (entry.section.empty() || entry.section == app_.get_name()) entries.push_back(entry);
+  }
+  return entries;
+}
+
+bool Command::set_shared(const ConfigEntry& entry) {
+  const std::string what = entry.where + ": " + entry.key;
+  const auto is_given = [&](const char* flag) {
+    const CLI::Option* option = app_.get_option_no_throw(flag);
+    return option != nullptr && option->count() > 0;
+  };
+  if (entry.key == "output") {
+    const std::string path = detail::to_text(entry.value, what);
+    if (!is_given("--output")) output_ = path;
+    return true;
+  }
+  for (const auto& [key, flag, member] : {std::tuple("force", "--force", &force_), std::tuple("json", "--json", &json_),
+                                          std::tuple("quiet", "--quiet", &quiet_)}) {
+    if (entry.key != key) continue;
+    const bool value = detail::to_bool(entry.value, what);
+    if (!is_given(flag)) *member = value;
+    return true;
+  }
+  return false;
+}
+
+void Command::check_output(const std::vector<std::string>& inputs) const {
+  if (output_.empty()) {
+    if (json_) return;
+    throw InvalidInput(
+        fmt::format("crashsim {}: where to? Name the output with -o FILE ('-' for standard output), or "
+                    "ask for the summary alone with --json",
+                    app_.get_name()));
+  }
+  if (output_ == "-" && json_) throw InvalidInput("-o - and --json both write to standard output: choose one of them");
+  if (output_ != "-") check_writable(output_, inputs);
+}
+
+void Command::check_writable(const std::string& path, const std::vector<std::string>& inputs) const {
+  for (const std::string& input : inputs)
+    if (is_same_file(path, input))
+      throw InvalidInput(fmt::format("{}: is an input: choose another name for the output", path));
+  std::error_code ignored;
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    throw InvalidInput(fmt::format("{}: there is no folder {}: make it first", path, folder.string()));
+  if (!force_ && fs::is_regular_file(path, ignored))
+    throw InvalidInput(fmt::format("{}: exists already; choose another name, or --force to replace it", path));
+}
+
+void Command::write(const std::string& text) const {
+  const CooperativeInterrupt finish_first;
+  if (!output_.empty()) write_output(output_, text, force_);
+}
+
+void Command::say(const std::string& line) const {
+  if (!quiet_) fmt::print(stderr, "{}\n", line);
+}
+
+void Command::say(const Summary& summary) const {
+  for (const SummaryItem& item : summary) say(fmt::format("  {:<{}} {}", item.doc, kNameWidth, shown_value(item)));
+}
+
+void Command::warn(const std::vector<std::string>& warnings) const {
+  for (const std::string& warning : warnings) say("  warning: " + warning);
+}
+
+void Command::print_json(const std::string& json) const {
+  if (json_) write_output("-", json, false);
+}
+
+Record Command::record(std::vector<std::string> arguments, std::vector<ConfigEntry> options,
+                       const std::vector<std::string>& inputs) const {
+  return make_record(app_.get_name(), std::move(arguments), std::move(options), inputs);
+}
+
+}  // namespace crashsim::cli

@@ -1,0 +1,107 @@
+#pragma once
+/// What every subcommand shares: its flags, its outputs and how it reports.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <crashsim/crashsim.hpp>
+
+#include "options.hpp"
+
+namespace crashsim::cli {
+
+inline constexpr int kDone = 0;
+inline constexpr int kUserCanFix = 2;
+inline constexpr int kNumbersFailed = 3;
+inline constexpr int kMachineFailed = 4;
+
+/// An options struct with its flags.
+template <class S>
+struct Bound {
+  Flags<S> flags;
+  S values;
+};
+
+class Command {
+ public:
+  /// @param example a command that works on the data of this project.
+  Command(CLI::App& parent, const std::string& name, const std::string& what, const std::string& example);
+  virtual ~Command() = default;
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  /// Does the work. @returns the exit code.
+  virtual int run() = 0;
+
+  [[nodiscard]] const CLI::App& app() const { return app_; }
+  [[nodiscard]] CLI::App& app() { return app_; }
+
+ protected:
+  /// `-o FILE`, and `--force`.
+  void add_output(const std::string& type_name, const std::string& what);
+  /// `--json`, `--quiet` and `--config`.
+  void add_reporting();
+
+  /// Fills options: from the configuration file first, then from the command line. Also checks the outputs asked for.
+  template <class... S>
+  void resolve(Bound<S>&... bound) {
+    for (const ConfigEntry& entry : config_entries()) {
+      if (set_shared(entry) || (... || bound.flags.set_from_config(bound.values, entry))) continue;
+      std::vector<std::string_view> known = {"output", "force", "json", "quiet"};
+      [[maybe_unused]] const auto append = [&](const auto& names) {
+        known.insert(known.end(), names.begin(), names.end());
+      };
+      (append(bound.flags.names()), ...);
+      detail::throw_unknown_name(entry.where, entry.key, known);
+    }
+    (bound.flags.set_from_command_line(bound.values), ...);
+  }
+
+  /// Refuses, before any work is done, an output that exists, is an input, or is missing while nothing else is asked.
+  void check_output(const std::vector<std::string>& inputs) const;
+  /// Refuses to write a file that exists (without --force) or is one of the inputs.
+  void check_writable(const std::string& path, const std::vector<std::string>& inputs) const;
+  /// Writes the output, if one was asked for.
+  void write(const std::string& text) const;
+
+  /// A line of the summary on stderr, unless --quiet.
+  void say(const std::string& line) const;
+  /// Names, values and units of a summary, one a line.
+  void say(const Summary& summary) const;
+  void warn(const std::vector<std::string>& warnings) const;
+  /// JSON on stdout, with --json.
+  void print_json(const std::string& json) const;
+
+  [[nodiscard]] Record record(std::vector<std::string> arguments, std::vector<ConfigEntry> options,
+                              const std::vector<std::string>& inputs) const;
+  [[nodiscard]] bool quiet() const { return quiet_; }
+  [[nodiscard]] bool json() const { return json_; }
+  [[nodiscard]] bool force() const { return force_; }
+  [[nodiscard]] const std::string& output() const { return output_; }
+
+ private:
+  [[nodiscard]] std::vector<ConfigEntry> config_entries() const;
+  /// Sets a flag that all subcommands have; false when the key is none.
+  bool set_shared(const ConfigEntry& entry);
+
+  CLI::App& app_;
+  std::string output_, config_;
+  bool force_ = false, json_ = false, quiet_ = false;
+};
+
+/// Runs the program on its arguments (without the program's name). @returns the exit code.
+int run_program(const std::vector<std::string>& arguments);
+
+std::unique_ptr<Command> make_info(CLI::App& app);
+std::unique_ptr<Command> make_pulse(CLI::App& app);
+std::unique_ptr<Command> make_identify(CLI::App& app);
+std::unique_ptr<Command> make_simulate(CLI::App& app);
+std::unique_ptr<Command> make_compare(CLI::App& app);
+std::unique_ptr<Command> make_run(CLI::App& app);
+std::unique_ptr<Command> make_schema(CLI::App& app);
+
+}  // namespace crashsim::cli

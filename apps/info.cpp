@@ -1,0 +1,119 @@
+/// crashsim info: what a trace file holds.
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+
+namespace crashsim::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json to_json(const TraceFileInfo& info) {
+  Json json = {{"path", info.set.path},
+               {"format", info.set.format},
+               {"title", info.set.title},
+               {"mass_kg", number(info.set.mass_kg)},
+               {"impact_speed_mps", number(info.set.impact_speed_mps)},
+               {"compartment_x", info.set.compartment_x},
+               {"warnings", info.set.warnings},
+               {"channels", Json::array()}};
+  for (const ChannelInfo& c : info.channels)
+    json["channels"].push_back({{"id", c.id},
+                                {"name", c.name},
+                                {"location", c.location},
+                                {"axis", c.axis == ' ' ? "" : std::string(1, c.axis)},
+                                {"unit", c.unit},
+                                {"samples", c.samples},
+                                {"rate_hz", number(c.rate_hz)},
+                                {"uniform", c.uniform},
+                                {"first_s", number(c.first_s)},
+                                {"last_s", number(c.last_s)},
+                                {"min", number(c.min)},
+                                {"max", number(c.max)},
+                                {"status", c.status}});
+  return json;
+}
+
+std::string range_of(double low, double high) {
+  return std::isnan(low) ? "-" : fmt::format("{:.4g} .. {:.4g}", low, high);
+}
+
+std::string table_of(const TraceFileInfo& info) {
+  const TraceSet& set = info.set;
+  std::string text = fmt::format("{}: {}{}\n", set.path, set.format, set.title.empty() ? "" : ", " + set.title);
+  if (!std::isnan(set.mass_kg)) text += fmt::format("  mass {:g} kg\n", set.mass_kg);
+  if (!std::isnan(set.impact_speed_mps))
+    text += fmt::format("  impact speed {:.6g} m/s ({:.4g} km/h)\n", set.impact_speed_mps, 3.6 * set.impact_speed_mps);
+  if (!set.compartment_x.empty())
+    text += fmt::format("  longitudinal channels of the compartment: {}\n", fmt::join(set.compartment_x, ", "));
+  std::size_t id = 2, name = 4, unit = 4;
+  for (const ChannelInfo& c : info.channels) {
+    id = std::max(id, c.id.size());
+    name = std::max(name, c.name.size());
+    unit = std::max(unit, c.unit.size());
+  }
+  text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>8}  {:>9}  {:<20}  {:<24}  {}\n", "id", id, "name", name, "unit",
+                      unit, "samples", "rate Hz", "time s", "range", "status");
+  for (const ChannelInfo& c : info.channels) {
+    const std::string rate = std::isnan(c.rate_hz) ? "-" : fmt::format("{}{:.5g}", c.uniform ? "" : "~", c.rate_hz);
+    text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>8}  {:>9}  {:<20}  {:<24}  {}\n", c.id, id, c.name, name, c.unit,
+                        unit, c.samples, rate, range_of(c.first_s, c.last_s), range_of(c.min, c.max), c.status);
+  }
+  for (const std::string& warning : set.warnings) text += "  warning: " + warning + "\n";
+  return text;
+}
+
+class InfoCommand : public Command {
+ public:
+  explicit InfoCommand(CLI::App& parent)
+      : Command(parent, "info", "Tell what is in trace files: format, mass, speed, channels",
+                "crashsim info data/fe-car/C56.csv --filter '*REAR_VX'") {
+    app().add_option("file", files_, "trace files")->required()->type_name("FILE");
+    app().add_option("--filter", filter_, "only channels whose id or name is like this glob")->type_name("GLOB");
+    app().add_option("--columns", read_.columns, "columns of a CSV file: time:ms,accel:g")->type_name("TEXT");
+    app()
+        .add_option("--units", read_.units, "unit system of FE output: kg-m-s, t-mm-s, kg-mm-ms, g-mm-ms")
+        ->type_name("TEXT");
+    app().add_flag("--json", as_json_, "as JSON: an object, or a list for several files");
+  }
+
+  int run() override {
+    Json all = Json::array();
+    for (const std::string& file : files_) {
+      TraceFileInfo info = inspect_traces(file, read_);
+      if (!filter_.empty()) std::erase_if(info.channels, [&](const ChannelInfo& c) { return !is_like(c); });
+      if (as_json_)
+        all.push_back(to_json(info));
+      else
+        write_output("-", table_of(info), false);
+    }
+    if (as_json_) write_output("-", (all.size() == 1 ? all.front() : all).dump(2) + "\n", false);
+    return kDone;
+  }
+
+ private:
+  [[nodiscard]] bool is_like(const ChannelInfo& channel) const {
+    const auto matches = [&](const std::string& text) { return ::fnmatch(filter_.c_str(), text.c_str(), 0) == 0; };
+    return matches(channel.id) || matches(channel.name);
+  }
+
+  std::vector<std::string> files_;
+  std::string filter_;
+  ReadOptions read_;
+  bool as_json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_info(CLI::App& app) { return std::make_unique<InfoCommand>(app); }
+
+}  // namespace crashsim::cli

@@ -1,0 +1,26 @@
+#pragma once
+/// One line on stderr that says how far a long job is, when someone watches.
+
+#include <chrono>
+#include <string>
+
+namespace crashsim::cli {
+
+class ProgressLine {
+ public:
+  /// @param what is counted: "starts". Silent unless stderr is a terminal.
+  ProgressLine(std::string what, bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(int done, int total);
+
+ private:
+  std::string what_;
+  bool visible_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace crashsim::cli

@@ -1,0 +1,146 @@
+/// crashsim run: the whole chain of a case, or again what made an output.
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "comparison_table.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+
+namespace crashsim::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The command line that a record stands for, without its outputs.
+std::vector<std::string> command_line_of(const Record& record) {
+  std::vector<std::string> line = {record.command};
+  for (const ConfigEntry& entry : record.options) {
+    const std::string flag = "--" + entry.key;
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&entry.value)) {
+      for (const std::string& text : *texts) line.insert(line.end(), {flag, text});
+    } else if (const auto* is_on = std::get_if<bool>(&entry.value)) {
+      if (*is_on) line.push_back(flag);
+    } else if (const std::string text = text_of(entry.value); !text.empty()) {
+      line.push_back(flag + "=" + text);
+    }
+  }
+  line.push_back("--");
+  line.insert(line.end(), record.arguments.begin(), record.arguments.end());
+  return line;
+}
+
+class RunCommand : public Command {
+ public:
+  explicit RunCommand(CLI::App& parent)
+      : Command(parent, "run", "Run a case: pulse, identification, simulation, comparison; or an output's record again",
+                "crashsim run data/fe-car/case.toml -o fe-car") {
+    app()
+        .add_option("case", file_, "case.toml; or a case.lock.json or other output, to make it again")
+        ->required()
+        ->type_name("CASE");
+    app().add_option("--jobs", jobs_, "threads; 0: all cores")->type_name("N");
+    add_output("DIR", "folder to write; the file, when the record of another command is run again");
+    add_reporting();
+  }
+
+  int run() override {
+    resolve();
+    if (!fs::path(file_).extension().string().ends_with("toml")) {
+      const auto record = find_record(file_);
+      if (record && record->command != "run") return run_again(*record);
+    }
+    Case study = read_case(file_);
+    if (app().count("--jobs") > 0)
+      set_option(study.identify, find_field<IdentifyOptions>("jobs", "--jobs"), jobs_, "--jobs");
+    check_outputs(study);
+    const CaseResult result = run_watched(study);
+    write_files(case_files(study, result));
+    report(study, result);
+    if (interrupted()) return kInterruptedExit;
+    return result.usable() ? kDone : kNumbersFailed;
+  }
+
+ private:
+  int run_again(const Record& record) const {
+    verify_inputs(record);
+    if (record.version != kVersion)
+      say(fmt::format("  warning: {} was made by crashsim {}, this is {}", file_, record.version, kVersion));
+    std::vector<std::string> line = command_line_of(record);
+    std::vector<std::string> shared;
+    if (!output().empty()) shared.insert(shared.end(), {"-o", output()});
+    if (force()) shared.emplace_back("--force");
+    if (json()) shared.emplace_back("--json");
+    if (quiet()) shared.emplace_back("--quiet");
+    line.insert(line.begin() + 1, shared.begin(), shared.end());
+    return run_program(line);
+  }
+
+  void check_outputs(const Case& study) const {
+    if (output() == "-") throw InvalidInput("-o -: a case writes several files: name a folder");
+    if (output().empty()) return check_output({});
+    if (fs::exists(output()) && !fs::is_directory(output()))
+      throw InvalidInput(fmt::format("{}: is a file: name a folder for the outputs of the case", output()));
+    if (!fs::exists(output())) return;
+    for (const std::string& name : case_file_names(study)) check_writable(path_of(name), {file_});
+  }
+
+  CaseResult run_watched(const Case& study) const {
+    const CooperativeInterrupt keep_what_is_finished;
+    ProgressLine line("starts", quiet());
+    return run_case(study, [&](int done, int total) {
+      line.show(done, total);
+      return !interrupted();
+    });
+  }
+
+  void write_files(const std::vector<CaseFile>& files) const {
+    if (output().empty()) return;
+    const CooperativeInterrupt finish_first;
+    std::error_code error;
+    fs::create_directories(output(), error);
+    if (error) throw SystemFailure(fmt::format("{}: cannot be made: {}", output(), error.message()));
+    for (const CaseFile& file : files) write_file_atomically(path_of(file.name), file.text, force());
+  }
+
+  void report(const Case& study, const CaseResult& result) const {
+    say(fmt::format("case {}{}", study.path, study.what.title.empty() ? "" : ": " + study.what.title));
+    if (result.pulse) {
+      say("pulse");
+      for (const std::string& channel : result.pulse->channels) say("  channel " + channel);
+      say(summarize(*result.pulse));
+      warn(result.pulse->warnings);
+    }
+    if (result.identification) {
+      say("identification");
+      if (!result.identification->message.empty()) say("  " + result.identification->message);
+      say(summarize(*result.identification));
+      warn(result.identification->warnings);
+    }
+    if (result.response.outcome != CrushOutcome::not_run) {
+      say("simulation: " + result.response.brief_report());
+      say(summarize(result.response, result.model.mass_kg));
+    }
+    for (const Prediction& prediction : result.predictions)
+      say(fmt::format("prediction at {}: {}", prediction.name, prediction.response.brief_report()));
+    for (const auto& [name, comparison] : result.comparisons) {
+      say(fmt::format("comparison, {}", name));
+      for (const std::string& line : table_of(comparison)) say(line);
+    }
+    if (!output().empty()) say(fmt::format("results in {}", output()));
+    print_json(format_summary(summarize(result), summary_parts(result)));
+  }
+
+  [[nodiscard]] std::string path_of(const std::string& name) const { return (fs::path(output()) / name).string(); }
+
+  std::string file_;
+  std::string jobs_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_run(CLI::App& app) { return std::make_unique<RunCommand>(app); }
+
+}  // namespace crashsim::cli
