@@ -4,17 +4,21 @@ namespace crashsim {
 namespace {
 
 constexpr double kForceRounding = 1e-13;  // relative to the terms the force is the sum of
-
-constexpr double kKnotRounding = 1e-13;  // relative to the impact speed
+constexpr double kStateRounding = 1e-13;  // of v relative to the impact speed, of x to its way in a crash
 
 double magnitude(const Quadratic& c, double s) {
   return std::fabs(c[0]) + std::fabs(s) * (std::fabs(c[1]) + std::fabs(s * c[2]));
 }
 
-/// Force of a region at a state; what rounding leaves of it is zero.
-double contact_force(const RegionForce& force, double x, double v) {
+double derivative(const Quadratic& c, double s) { return c[1] + 2.0 * s * c[2]; }
+
+/// Force of a region at a state; what rounding leaves of it, its own or the state's, is zero. `margin` is the rounding
+/// of v: a force that starts from nothing must not count as a pull because x is -1e-20 m.
+double contact_force(const RegionForce& force, double x, double v, double margin) {
   const double sum = value(force.spring, x) + value(force.damper, v);
-  const double rounding = kForceRounding * (magnitude(force.spring, x) + magnitude(force.damper, v));
+  const double rounding =
+      kForceRounding * (magnitude(force.spring, x) + magnitude(force.damper, v)) +
+      margin * (kCrashTime * std::fabs(derivative(force.spring, x)) + std::fabs(derivative(force.damper, v)));
   return std::fabs(sum) > rounding ? sum : 0.0;
 }
 
@@ -23,12 +27,11 @@ struct SignChange {
   double tau;
   bool pulls_at_once;  ///< Negative from the start.
 };
-SignChange sign_change(const RegionForce& force, const StepPolynomial& step) {
-  const auto at = [&](double tau) { return contact_force(force, step.x_at(tau), step.v_at(tau)); };
+SignChange sign_change(const RegionForce& force, const StepPolynomial& step, double margin) {
+  const auto at = [&](double tau) { return contact_force(force, step.x_at(tau), step.v_at(tau), margin); };
   const auto slope = [&](double tau) {
     const double x = step.x_at(tau), v = step.v_at(tau);
-    return (force.spring[1] + 2.0 * force.spring[2] * x) * v +
-           (force.damper[1] + 2.0 * force.damper[2] * v) * horner_derivative(step.v, step.degree, tau);
+    return derivative(force.spring, x) * v + derivative(force.damper, v) * horner_derivative(step.v, step.degree, tau);
   };
   double start = step.from;
   double first = at(start);
@@ -96,12 +99,12 @@ Region initial_region(const CrushProblem& problem) {
 Event first_event(const CrushProblem& problem, const Region& region, const StepPolynomial& step) {
   Event event{EventKind::none, step.to, 0, 0.0};
   if (region.separated) return event;
-  const SignChange change = sign_change(region_force(problem, region), step);
+  const double margin = kStateRounding * problem.speed_mps;
+  const SignChange change = sign_change(region_force(problem, region), step, margin);
   if (!problem.bilateral && change.pulls_at_once)
     event = {EventKind::separation, step.from, 0, 0.0};
   else if (change.tau < step.to)
     event = {problem.bilateral ? EventKind::turn : EventKind::separation, change.tau, 0, 0.0};
-  const double margin = kKnotRounding * problem.speed_mps;
   cross_bounds(problem.force.damper, region.damper, step.v, margin, step, EventKind::damper_knot, event);
   cross_bounds(problem.force.spring, region.spring, step.x, margin * kCrashTime, step, EventKind::spring_knot, event);
   return event;
@@ -111,8 +114,9 @@ Region next_region(const CrushProblem& problem, const Region& region, const Even
   Region next = region;
   if (event.kind == EventKind::spring_knot) next.spring += event.direction;
   if (event.kind == EventKind::damper_knot) next.damper += event.direction;
+  const double margin = kStateRounding * problem.speed_mps;
   next.separated = event.kind == EventKind::separation ||
-                   (!problem.bilateral && contact_force(region_force(problem, next), x, v) < 0.0);
+                   (!problem.bilateral && contact_force(region_force(problem, next), x, v, margin) < 0.0);
   return next;
 }
 

@@ -1,0 +1,98 @@
+#pragma once
+/// Crush models that several tests use.
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <crashsim/simulate.hpp>
+
+#include "support/random.hpp"
+
+namespace crashsim::test {
+
+inline constexpr Integrator kBothIntegrators[] = {Integrator::cvode, Integrator::taylor};
+
+/// Constant stiffness and damping: the Kelvin model.
+inline CrushModel kelvin_model(double mass_kg, double stiffness, double damping, double speed) {
+  CrushModel model;
+  model.mass_kg = mass_kg;
+  model.impact_speed_mps = speed;
+  model.spring = {{0.0}, {stiffness}};
+  model.damper = {{0.0}, {damping}};
+  return model;
+}
+
+/// Oracle case SYN_A: 7 knots each, the last damper knot on the impact speed.
+inline CrushModel syn_a() {
+  CrushModel model;
+  model.mass_kg = 2582.0;
+  model.impact_speed_mps = 56.0 / 3.6;
+  model.spring = {{0.0, 0.1, 0.2, 0.35, 0.5, 0.6, 0.7}, {3.0e6, 1.6e6, 1.2e6, 0.9e6, 0.8e6, 0.9e6, 1.1e6}};
+  model.damper = {{0.0, 3.0, 6.0, 9.0, 12.0, 14.0, model.impact_speed_mps}, {60e3, 40e3, 30e3, 25e3, 20e3, 15e3, 10e3}};
+  return model;
+}
+
+/// Oracle case SYN_B: SYN_A without its damper.
+inline CrushModel syn_b() {
+  CrushModel model = syn_a();
+  model.damper = {};
+  return model;
+}
+
+/// 2 to 20 uneven knots on [0, last] with ordinates between 0 and 2 `typical`, one in eight of them 0.
+inline PiecewiseLinear random_curve(Random& random, double last, double typical) {
+  PiecewiseLinear curve;
+  const int count = random.whole(2, 20);
+  for (int i = 0; i < count; ++i) {
+    const double jitter = i == 0 || i == count - 1 ? 0.0 : random.between(-0.4, 0.4);
+    curve.knots.push_back(last * (i + jitter) / (count - 1));
+    curve.ordinates.push_back(random.between(0.0, 1.0) < 0.125 ? 0.0 : typical * random.between(0.05, 2.0));
+  }
+  return curve;
+}
+
+/// Any model: both laws, constant or linear extrapolation, with a spring, a damper or both, knots within and beyond the
+/// reach of the motion, a damper knot on the impact speed in half of them, and one in four bilateral.
+inline CrushModel random_crush_model(Random& random) {
+  CrushModel model;
+  model.mass_kg = random.between(700.0, 4000.0);
+  const double speed = random.between(3.0, 25.0);
+  model.impact_speed_mps = speed;
+  model.law = random.whole(0, 1) == 0 ? CrushLaw::stiffness : CrushLaw::force;
+  model.extrapolation = random.whole(0, 1) == 0 ? Extrapolation::constant : Extrapolation::linear;
+  model.unloading.bilateral = random.whole(0, 3) == 0;
+  const double frequency = random.between(15.0, 50.0);  // 1/s
+  const double damping = model.mass_kg * frequency * random.between(0.02, 0.8);
+  const double stiffness = model.mass_kg * frequency * frequency;
+  const int parts = random.whole(0, 9);
+  if (parts != 0)
+    model.spring = random_curve(random, speed / frequency * random.between(0.3, 1.3),
+                                model.law == CrushLaw::stiffness ? stiffness : stiffness * speed / frequency);
+  if (parts != 1) {
+    const int placement = random.whole(0, 3);
+    model.damper = random_curve(random, placement < 2 ? speed : speed * random.between(0.5, 1.4), damping);
+    if (placement == 1) {  // an inner knot on the impact speed
+      const std::size_t inner = model.damper.knots.size() / 2;
+      const double scale = speed / model.damper.knots[inner];
+      for (double& knot : model.damper.knots) knot *= scale;
+      model.damper.knots[inner] = speed;
+    }
+  }
+  // Without a spring, a speed without damping is approached for ever, and passed by the smallest error.
+  if (model.spring.knots.empty())
+    for (double& c : model.damper.ordinates) c += 0.05 * damping;
+  // A bilateral yield force makes an oscillation whose frequency grows as it decays.
+  if (model.unloading.bilateral && model.law == CrushLaw::force && !model.spring.knots.empty())
+    model.spring.ordinates.front() = 0.0;
+  if (model.unloading.bilateral && model.extrapolation == Extrapolation::linear) {
+    // A falling last line turns negative somewhere and would drive the motion without bound.
+    for (PiecewiseLinear* curve : {&model.spring, &model.damper})
+      if (std::size_t n = curve->ordinates.size(); n > 1 && curve->ordinates[n - 2] > curve->ordinates[n - 1])
+        std::swap(curve->ordinates[n - 2], curve->ordinates[n - 1]);
+  }
+  return model;
+}
+
+}  // namespace crashsim::test
