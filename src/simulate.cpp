@@ -24,7 +24,9 @@ constexpr std::size_t kMaxSamples = 100'000'000;
 class Recorder {
  public:
   Recorder(const CrushProblem& problem, const SimulateOptions& options, CrushResponse& out)
-      : problem_(problem), options_(options), out_(out) {}
+      : problem_(problem), options_(options), out_(out), last_region_(initial_region(problem)) {
+    last_.v[0] = problem.speed_mps;
+  }
 
   void on_piece(const Region& region, const StepPolynomial& step, double tau_end) {
     const double t_end = step.base + tau_end;

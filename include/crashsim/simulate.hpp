@@ -73,8 +73,8 @@ struct CrushResponse {
   double t_m_s = kUnset;                  ///< Time of maximum crush [s].
   double max_crush_m = kUnset;            ///< Crush at t_m [m].
   double separation_s = kUnset;           ///< Time contact was lost [s]; unset: never.
-  double static_crush_m = kUnset;         ///< Crush at separation [m].
-  double rebound_velocity_mps = kUnset;   ///< Velocity at separation, negative [m/s].
+  double static_crush_m = kUnset;         ///< Crush at separation after maximum crush [m].
+  double rebound_velocity_mps = kUnset;   ///< Velocity at separation after maximum crush, <= 0 [m/s].
   double kinetic_energy_j = kUnset;       ///< At the end [J].
   double spring_energy_j = kUnset;        ///< Stored in the spring at the end [J].
   double dissipated_energy_j = kUnset;    ///< Dissipated until the end [J].

@@ -27,12 +27,20 @@ MotionSummary integrate_motion(const CrushProblem& problem, double end_time_s, b
                                Visitor& visitor) {
   MotionSummary summary;
   Region region = initial_region(problem);
+  const auto left_knots = [&] {
+    return problem.force.spring.forbidden(region.spring) || problem.force.damper.forbidden(region.damper);
+  };
+  if (left_knots()) {
+    summary.end = MotionEnd::left_knot_range;
+    return summary;
+  }
   stepper.restart(problem, region, 0.0, 0.0, problem.speed_mps, 0.0);
   while (summary.steps < kStepLimit) {
     const StepPolynomial& step = stepper.advance(end_time_s);
     ++summary.steps;
     const Event event = first_event(problem, region, step);
-    visitor.on_piece(region, step, event.tau);
+    const bool at_once = event.kind != EventKind::none && event.tau <= step.from;  // no piece of this region at all
+    if (!at_once) visitor.on_piece(region, step, event.tau);
     const double t = step.base + event.tau;
     summary.end_time_s = t;
     if (event.kind == EventKind::none) {
@@ -57,10 +65,12 @@ MotionSummary integrate_motion(const CrushProblem& problem, double end_time_s, b
     }
     if (region.separated) {
       summary.separation_s = t;
-      summary.static_crush_m = x;
-      summary.rebound_velocity_mps = v;
+      if (!std::isnan(summary.t_m_s)) {
+        summary.static_crush_m = x;
+        summary.rebound_velocity_mps = v;
+      }
     }
-    if (problem.force.spring.forbidden(region.spring) || problem.force.damper.forbidden(region.damper)) {
+    if (left_knots()) {
       summary.end = MotionEnd::left_knot_range;
       return summary;
     }

@@ -14,6 +14,7 @@
 namespace crashsim {
 namespace {
 
+using testing::Each;
 using testing::HasSubstr;
 using testing::IsNan;
 using testing::StartsWith;
@@ -94,6 +95,23 @@ TEST_P(CrushContact, YieldForceLetsGoAtZeroCrush) {
   EXPECT_NEAR(r.rebound_velocity_mps, -10.0, kSolver);
 }
 
+TEST_P(CrushContact, ForceThatPullsFromTheStartNeverMakesContact) {
+  // The falling last line of c(v) is below zero at the impact speed.
+  CrushModel model = test::kelvin_model(1000.0, 4e5, 0.0, 10.0);
+  model.damper = {{0.0, 4.0}, {6000.0, 2000.0}};
+  model.extrapolation = Extrapolation::linear;
+  const CrushResponse r = simulate(model, options());
+  EXPECT_EQ(r.outcome, CrushOutcome::no_max_crush);
+  EXPECT_EQ(r.separation_s, 0.0);
+  EXPECT_THAT(r.static_crush_m, IsNan());
+  EXPECT_THAT(r.rebound_velocity_mps, IsNan());
+  EXPECT_THAT(r.accel_mps2, Each(0.0));
+  EXPECT_THAT(r.velocity_mps, Each(10.0));
+  EXPECT_THAT(r.spring_force_n, Each(0.0));
+  EXPECT_THAT(r.damper_force_n, Each(0.0));
+  EXPECT_THAT(r.energy_residual_j, Each(0.0));
+}
+
 TEST_P(CrushContact, EnergyOfASpringThatLostContactIsDissipated) {
   const CrushResponse r = simulate(test::syn_a(), options());
   const double impact = 0.5 * 2582.0 * r.impact_speed_mps * r.impact_speed_mps;
@@ -129,6 +147,15 @@ TEST_P(CrushContact, LeavingTheSpringsKnotsIsAnOutcome) {
   EXPECT_THAT(r.message, HasSubstr("extrapolation is 'error': extend the curves or choose extrapolation 'constant'"));
   EXPECT_THAT(r.brief_report(), StartsWith("left_knot_range: at t = "));
   EXPECT_TRUE(simulate(with_last_knots(0.8, speed), options()).usable());
+}
+
+TEST_P(CrushContact, AnImpactBeyondTheDampersKnotsIsAnOutcomeToo) {
+  const double speed = test::syn_a().impact_speed_mps;
+  const CrushResponse r = simulate(with_last_knots(0.8, 0.9 * speed), options());
+  EXPECT_EQ(r.outcome, CrushOutcome::left_knot_range);
+  EXPECT_THAT(r.message, StartsWith("at t = 0 s the motion left the knots (x = 0 m, v = 15.5556 m/s)"));
+  EXPECT_EQ(r.velocity_mps, std::vector<double>{speed});
+  EXPECT_TRUE(simulate(with_last_knots(0.8, 1.1 * speed), options()).usable());
 }
 
 TEST_P(CrushContact, AnEndlesslyChatteringForceReachesTheStepLimit) {
