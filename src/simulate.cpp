@@ -30,7 +30,7 @@ class Recorder {
 
   void on_piece(const Region& region, const StepPolynomial& step, double tau_end) {
     const double t_end = step.base + tau_end;
-    for (double t = next_time(); t <= t_end; t = next_time()) record(region, step, std::min(t - step.base, tau_end));
+    for (double t = next_time(); t <= t_end; t = next_time()) record(region, step, std::min(t - step.base, tau_end), t);
     last_ = step;
     last_region_ = region;
     last_tau_ = tau_end;
@@ -46,7 +46,8 @@ class Recorder {
     const double t = last_.base + last_tau_;
     const double least_gap = 1e-9 * options_.dt_s;
     const bool on_grid = options_.times_s.empty();
-    if (out_.time_s.empty() || (on_grid && t - out_.time_s.back() > least_gap)) record(last_region_, last_, last_tau_);
+    if (out_.time_s.empty() || (on_grid && t - out_.time_s.back() > least_gap))
+      record(last_region_, last_, last_tau_, t);
     const double v = last_.v_at(last_tau_);
     out_.kinetic_energy_j = 0.5 * problem_.mass_kg * v * v;
     out_.dissipated_energy_j = last_.dissipated_at(last_tau_);
@@ -65,14 +66,14 @@ class Recorder {
     return i < options_.times_s.size() ? options_.times_s[i] : std::numeric_limits<double>::infinity();
   }
 
-  void record(const Region& region, const StepPolynomial& step, double tau) {
+  void record(const Region& region, const StepPolynomial& step, double tau, double t) {
     const RegionForce force = region_force(problem_, region);
     const double x = step.x_at(tau), v = step.v_at(tau);
     const double spring = value(force.spring, x), damper = value(force.damper, v);
     const double absorbed =
         region.separated ? absorbed_at_separation_ : spring_energy(problem_.force, x) + step.dissipated_at(tau);
     const double half_mass = 0.5 * problem_.mass_kg;
-    out_.time_s.push_back(step.base + tau);
+    out_.time_s.push_back(t);
     out_.displacement_m.push_back(x);
     out_.velocity_mps.push_back(v);
     out_.accel_mps2.push_back(-(spring + damper) / problem_.mass_kg);
@@ -92,11 +93,13 @@ class Recorder {
 
 double end_time(const SimulateOptions& options) {
   for (std::size_t i = 0; i < options.times_s.size(); ++i) {
-    const double before = i > 0 ? options.times_s[i - 1] : 0.0;
-    if (i > 0 ? options.times_s[i] <= before : options.times_s[i] < before)
+    const double t = options.times_s[i];
+    if (!std::isfinite(t) || (i > 0 ? t <= options.times_s[i - 1] : t < 0.0))
       throw InvalidInput(
-          fmt::format("SimulateOptions.times_s[{}] = {} s: times must increase from 0", i, options.times_s[i]));
+          fmt::format("SimulateOptions.times_s[{}] = {} s: times must be finite and increase from 0", i, t));
   }
+  if (!options.times_s.empty() && options.times_s.back() == 0.0)
+    throw InvalidInput("SimulateOptions.times_s: the last time is the end of the run and must be > 0 s");
   if (!options.times_s.empty()) return options.times_s.back();
   return std::isnan(options.end_time_s) ? kDefaultEnd : options.end_time_s;
 }
