@@ -152,6 +152,12 @@ void judge(const MotionSummary& summary, const CrushProblem& problem, CrushRespo
     out.outcome = CrushOutcome::step_limit;
     out.message = fmt::format("{} steps reached only t = {:.6g} s: loosen rtol or check the model's ordinates",
                               summary.steps, summary.end_time_s);
+  } else if (summary.end == MotionEnd::diverged) {
+    out.outcome = CrushOutcome::failed;
+    out.message = fmt::format(
+        "the motion grows without bound after t = {:.6g} s (x = {:.6g} m, v = {:.6g} m/s): check the model's ordinates "
+        "and extrapolation",
+        summary.end_time_s, out.displacement_m.back(), out.velocity_mps.back());
   } else if (std::isnan(summary.t_m_s)) {
     out.outcome = CrushOutcome::no_max_crush;
     out.message = fmt::format(

@@ -90,7 +90,7 @@ double spring_energy(const CrushForce& force, double x) {
   double energy = 0.0, from = 0.0;
   for (int s = force.spring.locate(0.0, direction);; s += direction) {
     const double bound = direction > 0 ? force.spring.upper(s) : force.spring.lower(s);
-    const bool last = direction > 0 ? x <= bound : x >= bound;
+    const bool last = !(direction > 0 ? x > bound : x < bound);  // also when x is not a number
     const Quadratic& c = force.spring_polynomials[static_cast<std::size_t>(s)];
     energy += primitive(c, last ? x : bound) - primitive(c, from);
     if (last) return energy;

@@ -7,7 +7,7 @@
 namespace crashsim {
 
 /// Why a motion ended.
-enum class MotionEnd { end_time, max_crush, left_knot_range, step_limit };
+enum class MotionEnd { end_time, max_crush, left_knot_range, step_limit, diverged };
 
 struct MotionSummary {
   MotionEnd end = MotionEnd::end_time;
@@ -38,6 +38,10 @@ MotionSummary integrate_motion(const CrushProblem& problem, double end_time_s, b
   while (summary.steps < kStepLimit) {
     const StepPolynomial& step = stepper.advance(end_time_s);
     ++summary.steps;
+    if (!std::isfinite(step.v[static_cast<std::size_t>(step.degree)])) {  // what overflows does so here first
+      summary.end = MotionEnd::diverged;
+      return summary;
+    }
     const Event event = first_event(problem, region, step);
     const bool at_once = event.kind != EventKind::none && event.tau <= step.from;  // no piece of this region at all
     if (!at_once) visitor.on_piece(region, step, event.tau);

@@ -123,6 +123,7 @@ TEST(CrushModel, SpringEnergyIsTheWorkOfTheForce) {
     EXPECT_NEAR(spring_energy(model, x), quadrature(model, x), rounding);
     EXPECT_NEAR(spring_energy(model, -x), quadrature(model, x), rounding);  // an even function
     EXPECT_EQ(spring_energy(model, 0.0), 0.0);
+    EXPECT_THAT(spring_energy(model, kUnset), testing::IsNan());
   }
 }
 

@@ -175,5 +175,27 @@ TEST_P(CrushContact, AnEndlesslyChatteringForceReachesTheStepLimit) {
   EXPECT_THAT(r.message, HasSubstr("loosen rtol or check the model's ordinates"));
 }
 
+TEST_P(CrushContact, AMotionThatGrowsWithoutBoundIsNotUsable) {
+  // Past x = 0.2 m the falling line of k(x) drives the vehicle, x'' = 5000 x (x - 0.2), to infinity in finite time.
+  CrushModel model = test::kelvin_model(1000.0, 0.0, 0.0, 20.0);
+  model.spring = {{0.0, 0.1}, {1e6, 5e5}};
+  model.extrapolation = Extrapolation::linear;
+  model.unloading.bilateral = true;
+  const CrushResponse r = simulate(model, options());
+  EXPECT_FALSE(r.usable());
+  EXPECT_THAT(r.outcome, testing::AnyOf(CrushOutcome::failed, CrushOutcome::step_limit));
+  EXPECT_THAT(r.t_m_s, IsNan());
+  EXPECT_LT(r.time_s.back(), 0.1);
+  for (const double x : r.displacement_m) ASSERT_TRUE(std::isfinite(x));
+  EXPECT_THAT(r.message, HasSubstr("check the model's ordinates"));
+}
+
+TEST_P(CrushContact, ForcesBeyondAllNumbersAreAFailure) {
+  const CrushResponse r = simulate(test::kelvin_model(1e-10, 1e300, 0.0, 20.0), options());
+  EXPECT_EQ(r.outcome, CrushOutcome::failed);
+  EXPECT_THAT(r.brief_report(), StartsWith("failed: "));
+  EXPECT_THAT(r.max_crush_m, IsNan());
+}
+
 }  // namespace
 }  // namespace crashsim
