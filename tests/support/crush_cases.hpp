@@ -65,11 +65,9 @@ inline CrushModel random_crush_model(Random& random) {
   model.unloading.bilateral = random.whole(0, 3) == 0;
   const double frequency = random.between(15.0, 50.0);  // 1/s
   const double damping = model.mass_kg * frequency * random.between(0.02, 0.8);
-  const double stiffness = model.mass_kg * frequency * frequency;
+  const double typical_spring = model.mass_kg * frequency * (model.law == CrushLaw::stiffness ? frequency : speed);
   const int parts = random.whole(0, 9);
-  if (parts != 0)
-    model.spring = random_curve(random, speed / frequency * random.between(0.3, 1.3),
-                                model.law == CrushLaw::stiffness ? stiffness : stiffness * speed / frequency);
+  if (parts != 0) model.spring = random_curve(random, speed / frequency * random.between(0.3, 1.3), typical_spring);
   if (parts != 1) {
     const int placement = random.whole(0, 3);
     model.damper = random_curve(random, placement < 2 ? speed : speed * random.between(0.5, 1.4), damping);
@@ -80,18 +78,22 @@ inline CrushModel random_crush_model(Random& random) {
       model.damper.knots[inner] = speed;
     }
   }
-  // Without a spring, a speed without damping is approached for ever, and passed by the smallest error.
+  // Where nothing but a damper acts, a speed without damping is approached for ever, and passed by the smallest error.
   if (model.spring.knots.empty())
     for (double& c : model.damper.ordinates) c += 0.05 * damping;
+  else
+    model.spring.ordinates.back() += 0.05 * typical_spring;
   // A bilateral yield force makes an oscillation whose frequency grows as it decays.
   if (model.unloading.bilateral && model.law == CrushLaw::force && !model.spring.knots.empty())
     model.spring.ordinates.front() = 0.0;
-  if (model.unloading.bilateral && model.extrapolation == Extrapolation::linear) {
-    // A falling last line turns negative somewhere and would drive the motion without bound.
-    for (PiecewiseLinear* curve : {&model.spring, &model.damper})
-      if (std::size_t n = curve->ordinates.size(); n > 1 && curve->ordinates[n - 2] > curve->ordinates[n - 1])
-        std::swap(curve->ordinates[n - 2], curve->ordinates[n - 1]);
-  }
+  // A falling last line turns negative somewhere: a damper's, or a spring's that pulls, drives a motion without bound.
+  const auto raise_last_line = [](std::vector<double>& ordinates) {
+    if (ordinates.size() > 1 && *(ordinates.end() - 2) > ordinates.back())
+      std::swap(*(ordinates.end() - 2), ordinates.back());
+  };
+  if (model.extrapolation == Extrapolation::linear) raise_last_line(model.damper.ordinates);
+  if (model.extrapolation == Extrapolation::linear && model.unloading.bilateral)
+    raise_last_line(model.spring.ordinates);
   return model;
 }
 
