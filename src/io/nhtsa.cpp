@@ -188,24 +188,40 @@ struct Test {
   TraceSet set;
 };
 
+/// The compartment's channels: those with files, else those the header names.
+std::vector<std::size_t> choose_compartment(const NhtsaHeader& header, const std::vector<bool>& good,
+                                            const std::vector<bool>& usable, TraceSet& set) {
+  auto wanted = compartment_channels(header, good);
+  auto present = compartment_channels(header, usable);
+  if (present.empty()) return wanted;
+  std::string absent;
+  for (const std::size_t i : wanted)
+    if (!usable[i]) absent += fmt::format("{}{}", absent.empty() ? "" : ", ", set.traces[i].id);
+  if (!absent.empty())
+    set.warnings.push_back(
+        fmt::format("{}: compartment channel {} has no file here: what is taken instead may differ", set.path, absent));
+  return present;
+}
+
 Test open_test(const std::string& header_path, std::string_view text) {
   Test test;
   test.header = parse_nhtsa_header(text, header_path);
   test.set.path = header_path;
   test.set.input_files = {header_path};
   const auto beside = files_beside(header_path);
-  std::vector<bool> usable;
+  std::vector<bool> good, usable;  // by the header; and with a file
   for (const NhtsaChannel& c : test.header.channels) {
     const std::string name = fmt::format("{}.{:03}", stem_of(header_path), c.curve);
     const auto found = beside.find(name);
     test.files.push_back(found == beside.end() ? "" : found->second);
     Trace trace = describe(c);
+    good.push_back(trace.problem.empty());
     if (found == beside.end() && trace.problem.empty())
       trace.problem = fmt::format("its file {} is not beside the header", name);
     usable.push_back(trace.problem.empty());
     test.set.traces.push_back(std::move(trace));
   }
-  const auto compartment = compartment_channels(test.header, usable);
+  const auto compartment = choose_compartment(test.header, good, usable, test.set);
   for (const std::size_t i : compartment) test.set.compartment_x.push_back(test.set.traces[i].id);
   describe_test(test.header, compartment, test.set);
   return test;

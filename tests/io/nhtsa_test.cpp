@@ -161,6 +161,24 @@ TEST(Nhtsa, CompartmentChannelsAreTheBestPlaceThatHasGoodOnes) {
   EXPECT_THAT(compartment(), IsEmpty());
 }
 
+TEST(Nhtsa, AHeaderAloneNamesTheCompartmentChannels) {
+  const test::TempDir dir;
+  const std::string header = dir.file("v01.EV5", header_text({{}, {.curve = 2, .attachment = "FLRR"}}));
+  const TraceSet set = read_traces(header);
+  EXPECT_EQ(set.mass_kg, 1500);
+  EXPECT_THAT(set.compartment_x, ElementsAre("1", "2"));
+  EXPECT_THAT([&] { read_pulse(header); },
+              ThrowsMessage<InvalidInput>(HasSubstr("its file v01.001 is not beside the header")));
+}
+
+TEST(Nhtsa, OneOfTwoCompartmentChannelsIsUsedWithAWarning) {
+  const test::TempDir dir;
+  dir.file("v01.002", kFiveSamples);
+  const TraceSet set = read_traces(dir.file("v01.EV5", header_text({{}, {.curve = 2, .attachment = "FLRR"}})));
+  EXPECT_THAT(set.compartment_x, ElementsAre("2"));
+  EXPECT_THAT(set.warnings, ElementsAre(HasSubstr("compartment channel 1 has no file here")));
+}
+
 TEST(Nhtsa, SpeedComesFromTheChannelOrTheClosingSpeedWhenTheVehicleHasNone) {
   const test::TempDir dir;
   dir.file("v01.001", kFiveSamples);
