@@ -16,7 +16,7 @@ namespace crashsim {
 namespace {
 
 constexpr double kDefaultEnd = 0.2;       // longer than any frontal crash [s]
-constexpr double kLocalTolerance = 1e-2;  // CVODE's global error is 10-300 times its local tolerance here
+constexpr double kLocalTolerance = 1e-3;  // CVODE's global error is 10-300 times its local tolerance here
 constexpr int kTaylorDegree = 12;
 constexpr std::size_t kMaxSamples = 100'000'000;
 
