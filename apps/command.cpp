@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNameWidth = 32;
+constexpr int kNameWidth = 34;
+constexpr int kValueWidth = 14;
 
 /// How a number is shown: scaled to a unit that people read it in.
 struct Shown {
@@ -147,6 +148,14 @@ void Command::say(const std::string& line) const {
 
 void Command::say(const Summary& summary) const {
   for (const SummaryItem& item : summary) say(fmt::format("  {:<{}} {}", item.doc, kNameWidth, shown_value(item)));
+}
+
+void Command::say(const Summary& left, const Summary& right, const std::string& left_name,
+                  const std::string& right_name) const {
+  say(fmt::format("  {:<{}} {:<{}} {}", "", kNameWidth, left_name, kValueWidth, right_name));
+  for (std::size_t i = 0; i < left.size(); ++i)
+    say(fmt::format("  {:<{}} {:<{}} {}", left[i].doc, kNameWidth, shown_value(left[i]), kValueWidth,
+                    shown_value(right[i])));
 }
 
 void Command::warn(const std::vector<std::string>& warnings) const {

@@ -72,6 +72,9 @@ class Command {
   void say(const std::string& line) const;
   /// Names, values and units of a summary, one a line.
   void say(const Summary& summary) const;
+  /// The same of two summaries with the same names, side by side under two headings.
+  void say(const Summary& left, const Summary& right, const std::string& left_name,
+           const std::string& right_name) const;
   void warn(const std::vector<std::string>& warnings) const;
   /// JSON on stdout, with --json.
   void print_json(const std::string& json) const;

@@ -41,7 +41,7 @@ std::string unknown_argument(const CLI::App& app, const std::string& argument) {
   const std::string name = argument.substr(0, argument.find('='));
   const std::string_view nearest = nearest_name(name, {spellings.begin(), spellings.end()});
   const std::string hint = nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest);
-  return fmt::format("{}: unknown {} '{}'{} (see {} --help)", where, kind, name, hint, where);
+  return fmt::format("unknown {} '{}'{} (see {} --help)", kind, name, hint, where);
 }
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {

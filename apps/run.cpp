@@ -108,29 +108,41 @@ class RunCommand : public Command {
   void report(const Case& study, const CaseResult& result) const {
     say(fmt::format("case {}{}", study.path, study.what.title.empty() ? "" : ": " + study.what.title));
     if (result.pulse) {
-      say("pulse");
-      for (const std::string& channel : result.pulse->channels) say("  channel " + channel);
-      say(summarize(*result.pulse));
+      say(fmt::format("  pulse from {}", fmt::join(result.pulse->channels, ", ")));
       warn(result.pulse->warnings);
     }
-    if (result.identification) {
-      say("identification");
-      if (!result.identification->message.empty()) say("  " + result.identification->message);
-      say(summarize(*result.identification));
-      warn(result.identification->warnings);
-    }
-    if (result.response.outcome != CrushOutcome::not_run) {
-      say("simulation: " + result.response.brief_report());
-      say(summarize(result.response, result.model.mass_kg));
-    }
+    if (result.identification) report_fit(*result.identification);
+    if (result.response.outcome != CrushOutcome::not_run) report_motion(result);
     for (const Prediction& prediction : result.predictions)
       say(fmt::format("prediction at {}: {}", prediction.name, prediction.response.brief_report()));
     for (const auto& [name, comparison] : result.comparisons) {
-      say(fmt::format("comparison, {}", name));
+      say(fmt::format("model against test, {}", name == "to_max_crush" ? "to maximum crush" : "whole record"));
       for (const std::string& line : table_of(comparison)) say(line);
     }
     if (!output().empty()) say(fmt::format("results in {}", output()));
     print_json(format_summary(summarize(result), summary_parts(result)));
+  }
+
+  void report_fit(const Identification& fit) const {
+    say(fmt::format("identification: {}", name_of(fit.outcome)));
+    if (!fit.message.empty()) say("  " + fit.message);
+    if (!fit.ordinates.empty())
+      say(fmt::format(
+          "  E = {:.6g} (acceleration {:.4g}, velocity {:.4g}, displacement {:.4g}), {} of {} starts within "
+          "0.1 % of it, {:.3g} s",
+          fit.error.total, fit.error.accel, fit.error.velocity, fit.error.displacement, fit.starts_at_best,
+          fit.starts.size(), fit.seconds));
+    if (!fit.verdict.message.empty()) say("  verdict: " + fit.verdict.message);
+    warn(fit.warnings);
+  }
+
+  void report_motion(const CaseResult& result) const {
+    const Summary model = summarize(result.response, result.model.mass_kg);
+    say(fmt::format("simulation: {}", result.response.brief_report()));
+    if (result.pulse)
+      say(summarize(*result.pulse), model, "test", "model");
+    else
+      say(model);
   }
 
   [[nodiscard]] std::string path_of(const std::string& name) const { return (fs::path(output()) / name).string(); }

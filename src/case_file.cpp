@@ -1,6 +1,6 @@
 /// Case files: read from TOML or a record, and written as one.
 
-#include <set>
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,11 +15,20 @@
 namespace crashsim {
 namespace {
 
-/// Section and key of a field of CaseOptions: "pulse.file".
-std::pair<std::string_view, std::string_view> split_flag(std::string_view section, std::string_view flag) {
-  const std::size_t dot = flag.find('.');
-  if (!section.empty() || dot == std::string_view::npos) return {section, flag};
-  return {flag.substr(0, dot), flag.substr(dot + 1)};
+struct Place {
+  std::string section, key;
+};
+
+/// Where a field stands and what it is called there: its flag with '_', a list by its name ("channels"). The flag of a
+/// field of CaseOptions holds both: "pulse.file".
+template <class S>
+Place place_of(std::string_view section, const Field<S>& field) {
+  const bool is_list = std::holds_alternative<std::vector<std::string> S::*>(field.member);
+  std::string key(is_list && !section.empty() ? field.name : field.flag);
+  std::replace(key.begin(), key.end(), '-', '_');
+  const std::size_t dot = key.find('.');
+  if (!section.empty() || dot == std::string::npos) return {std::string(section), key};
+  return {key.substr(0, dot), key.substr(dot + 1)};
 }
 
 [[noreturn]] void refuse_key(const ConfigEntry& entry, const std::vector<FileKey>& keys) {
@@ -37,12 +46,10 @@ std::pair<std::string_view, std::string_view> split_flag(std::string_view sectio
 void set(Case& study, const ConfigEntry& entry) {
   bool known = false;
   for_each_key(study, [&](std::string_view section, const auto& field, auto& options) {
-    const auto [its_section, key] = split_flag(section, field.flag);
-    auto named = field;
-    named.flag = key;
-    if (section.empty()) named.name = key;
-    if (known || its_section != entry.section || !is_key_of(entry.key, named)) return;
-    const std::string path = its_section.empty() ? "" : fmt::format("[{}] ", its_section);
+    const Place place = place_of(section, field);
+    const bool is_named = section.empty() ? entry.key == place.key : is_key_of(entry.key, field);
+    if (known || place.section != entry.section || !is_named) return;
+    const std::string path = place.section.empty() ? "" : fmt::format("[{}] ", place.section);
     set_option(options, field, entry.value, fmt::format("{}: {}{}", entry.where, path, entry.key));
     known = true;
   });
@@ -66,8 +73,8 @@ std::vector<FileKey> case_keys() {
   Case defaults;
   std::vector<FileKey> keys;
   for_each_key(defaults, [&](std::string_view section, const auto& field, const auto& options) {
-    const auto [its_section, key] = split_flag(section, field.flag);
-    keys.push_back({std::string(its_section), std::string(key), describe_field(field, options)});
+    const Place place = place_of(section, field);
+    keys.push_back({place.section, place.key, describe_field(field, options)});
   });
   std::stable_sort(keys.begin(), keys.end(), [](const FileKey& a, const FileKey& b) {
     const auto rank = [](const std::string& name) {
@@ -101,8 +108,8 @@ Case read_case(const std::string& path) {
 std::vector<ConfigEntry> entries_of(const Case& study) {
   std::vector<ConfigEntry> entries;
   for_each_key(study, [&](std::string_view section, const auto& field, const auto& options) {
-    const auto [its_section, key] = split_flag(section, field.flag);
-    entries.push_back({std::string(its_section), std::string(key), get_option(options, field), ""});
+    const Place place = place_of(section, field);
+    entries.push_back({place.section, place.key, get_option(options, field), ""});
   });
   return entries;
 }
