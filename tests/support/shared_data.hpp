@@ -8,13 +8,15 @@
 #include <optional>
 #include <string_view>
 
+#include "support/source_dir.hpp"
+
 namespace crashsim::test {
 
 inline constexpr std::string_view kNoSharedData = "the shared test data is not beside this repository";
 
 namespace detail {
 inline std::optional<std::filesystem::path> beside_the_source(std::string_view folder, std::string_view relative) {
-  const auto path = std::filesystem::path(CRASHSIM_SOURCE_DIR) / ".." / "shared" / folder / relative;
+  const auto path = std::filesystem::path(source_dir()) / ".." / "shared" / folder / relative;
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return std::nullopt;
   return path.lexically_normal();

@@ -11,6 +11,8 @@
 #include <crashsim/signal.hpp>
 #include <crashsim/trace_io.hpp>
 
+#include "support/source_dir.hpp"
+
 namespace crashsim {
 namespace {
 
@@ -27,7 +29,7 @@ void PrintTo(const Run& run, std::ostream* out) { *out << run.name; }
 
 class FeCar : public testing::TestWithParam<Run> {
  protected:
-  static std::string path() { return std::string(CRASHSIM_SOURCE_DIR) + "/data/fe-car/" + GetParam().name + ".csv"; }
+  static std::string path() { return std::string(test::source_dir()) + "/data/fe-car/" + GetParam().name + ".csv"; }
   static const Trace& named(const TraceSet& set, const std::string& name) {
     return set.traces.at(select_channels(set, name).at(0));
   }
