@@ -93,8 +93,11 @@ Rows parse_rows(std::string_view text, const std::string& path) {
     if (p != end && *p != '\n') {
       double numbers[2] = {};
       std::size_t count = 0;
-      for (const char* next = p; count < 2 && p != end && *p != '\n'; p = skip_blanks(next, end), ++count)
-        if ((next = scan_number(p, end, numbers[count])) == p) break;
+      for (; count < 2 && p != end && *p != '\n'; ++count) {
+        const char* const after = scan_number(p, end, numbers[count]);
+        if (after == p) break;
+        p = skip_blanks(after, end);
+      }
       const bool like_the_others = rows.values.empty() || (count == 2) == !rows.times.empty();
       if (count == 0 || (p != end && *p != '\n') || !like_the_others) {
         const auto at = static_cast<std::size_t>(p - text.data());

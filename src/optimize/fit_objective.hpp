@@ -46,7 +46,7 @@ class FitObjective {
 
  private:
   void set(std::span<const double> parameters);
-  double roughness(std::span<const double> parameters, std::span<double> gradient) const;
+  [[nodiscard]] double roughness(std::span<const double> parameters, std::span<double> gradient) const;
 
   std::span<const FitTarget> targets_;
   Loss loss_;
