@@ -44,10 +44,12 @@ struct Call {
 
 double evaluate(unsigned n, const double* x, double* gradient, void* data) noexcept {
   Call& call = *static_cast<Call*>(data);
+  if (call.pending) return std::numeric_limits<double>::infinity();  // some algorithms look once more before they stop
   try {
     double* out = gradient != nullptr ? gradient : call.unused_gradient.data();
     const double value = call.function({x, n}, {out, n});
     ++call.best.evaluations;
+    if (call.best.evaluations == 1 && !std::isfinite(value)) nlopt_force_stop(call.optimiser);  // no way down from here
     if (std::isnan(call.best.value) || value < call.best.value) {
       call.best.value = value;
       call.best.point.assign(x, x + n);

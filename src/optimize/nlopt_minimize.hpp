@@ -19,7 +19,8 @@ struct Minimum {
 };
 
 /// Minimises over 0 <= p <= 1 from `start`, until the value changes by less than `ftol_rel` or `max_evaluations`.
-/// What the function throws is thrown again here. @throws NumericalFailure when NLopt refuses the problem.
+/// Gives up at once where the start has no finite value. What the function throws is thrown again here. @throws
+/// NumericalFailure when NLopt refuses the problem.
 Minimum minimize_in_unit_box(Algorithm algorithm, const GradientFunction& function, std::span<const double> start,
                              double ftol_rel, int max_evaluations);
 
