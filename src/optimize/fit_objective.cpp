@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "optimize/loss_moments.hpp"
 #include "optimize/sensitivity.hpp"
 #include "solver/crush_motion.hpp"
 #include "solver/taylor.hpp"
@@ -30,7 +31,8 @@ class SensitivityState {
   }
 
   void advance(const SensitivitySeries& series, int degree, double tau) {
-    const SensitivityValues at = crashsim::evaluate(series, degree, tau);
+    SensitivityValues at;
+    crashsim::evaluate(series, degree, tau, at);
     for (std::size_t p = 0; p < x_.size(); ++p) {
       const double x = x_[p], v = v_[p];
       x_[p] = at.x[0] * x + at.x[1] * v;
@@ -60,8 +62,8 @@ double acceleration(const CrushProblem& problem, const Region& region, double x,
   return -(value(force.spring, x) + value(force.damper, v)) / problem.mass_kg;
 }
 
-/// Walks a target's samples along the motion, with the sensitivities of each piece. Derived: `begin_piece(step)`,
-/// `sample(index, tau, x, v, a)`, `end_piece(step)`.
+/// Walks a target's samples along the motion, with the sensitivities of each piece. Derived: `samples(region, step,
+/// tau_end, first, last)` for the samples [first, last) of a piece.
 template <class Derived>
 class SampleVisitor {
  public:
@@ -74,16 +76,11 @@ class SampleVisitor {
         state_(sx, sv) {}
 
   void on_piece(const Region& region, const StepPolynomial& step, double tau_end) {
-    if (with_sensitivities_) sensitivity_series(problem_, region, step, damper_offset_, series_);
-    auto& derived = static_cast<Derived&>(*this);
-    derived.begin_piece(step);
+    const std::size_t first = next_;
     const double t_end = step.base + tau_end;
-    for (; next_ < target_.time_s.size() && target_.time_s[next_] <= t_end; ++next_) {
-      const double tau = std::min(target_.time_s[next_] - step.base, tau_end);
-      const double x = step.x_at(tau), v = step.v_at(tau);
-      derived.sample(next_, tau, x, v, acceleration(problem_, region, x, v));
-    }
-    derived.end_piece(step);
+    while (next_ < target_.time_s.size() && target_.time_s[next_] <= t_end) ++next_;
+    if (with_sensitivities_) sensitivity_series(problem_, region, step, damper_offset_, series_);
+    static_cast<Derived&>(*this).samples(region, step, tau_end, first, next_);
     if (with_sensitivities_) state_.advance(series_, step.degree, tau_end);
   }
 
@@ -105,62 +102,37 @@ class SampleVisitor {
   std::size_t next_ = 0;
 };
 
-/// Sum of the losses, and its gradient through moments: a sum over samples of g tau^n for each power n, so that the
-/// cost of a sample does not depend on the number of parameters.
+/// Sum of the losses, and its gradient through their moments.
 class LossVisitor : public SampleVisitor<LossVisitor> {
  public:
-  struct Terms {
-    Loss loss;
-    double smoothing, weight;
-  };
-  LossVisitor(const CrushProblem& problem, const FitTarget& target, int damper_offset, const Terms& terms,
-              std::span<double> gradient, std::vector<double>& sx, std::vector<double>& sv)
-      : SampleVisitor(problem, target, damper_offset, !gradient.empty(), sx, sv), terms_(terms), gradient_(gradient) {}
+  LossVisitor(const CrushProblem& problem, const FitTarget& target, int damper_offset, const Penalty& penalty,
+              double weight, std::span<double> gradient, std::vector<double>& sx, std::vector<double>& sv)
+      : SampleVisitor(problem, target, damper_offset, penalty.with_moments, sx, sv),
+        penalty_(penalty),
+        weight_(weight),
+        gradient_(gradient) {}
 
-  void begin_piece(const StepPolynomial& step) {
-    degree_ = static_cast<std::size_t>(step.degree);
-    for (Coefficients* moments : {&moments_x_, &moments_v_, &moments_a_}) moments->fill(0.0);
-  }
-
-  void sample(std::size_t i, double tau, double x, double v, double a) {
-    const auto add = [&](double residual, double scale) {
-      const LossValue at = loss_value(terms_.loss, scale * residual, terms_.smoothing);
-      sum_ += at.value;
-      return at.derivative * scale;
-    };
-    double gx = add(x - target_.displacement_m[i], target_.displacement_scale);
-    double gv = add(v - target_.velocity_mps[i], target_.velocity_scale);
-    double ga = add(a - target_.accel_mps2[i], target_.accel_scale);
-    if (!with_sensitivities_) return;
-    for (std::size_t n = 0; n <= degree_; ++n) {
-      moments_x_[n] += gx;
-      moments_v_[n] += gv;
-      moments_a_[n] += ga;
-      gx *= tau;
-      gv *= tau;
-      ga *= tau;
-    }
-  }
-
-  void end_piece(const StepPolynomial&) {
+  void samples(const Region& region, const StepPolynomial& step, double tau_end, std::size_t first, std::size_t last) {
+    if (first == last) return;
+    LossMoments moments;
+    loss_moments(target_, first, last, step, tau_end, region_force(problem_, region), penalty_, moments);
+    sum_ += moments.sum;
     if (!with_sensitivities_) return;
     Lanes functional{};
-    for (std::size_t n = 0; n <= degree_; ++n) {
-      const double accel = n > 0 ? static_cast<double>(n) * moments_a_[n - 1] : 0.0;
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        functional[lane] += series_.x[n][lane] * moments_x_[n] + series_.v[n][lane] * (moments_v_[n] + accel);
+    for (std::size_t n = 0; n <= static_cast<std::size_t>(step.degree); ++n) {
+      const double accel = n > 0 ? static_cast<double>(n) * moments.a[n - 1] : 0.0;
+      functional += series_.x[n] * moments.x[n] + series_.v[n] * (moments.v[n] + accel);
     }
-    for (double& entry : functional) entry *= terms_.weight;
+    functional *= weight_;
     state_.accumulate(series_, functional, gradient_);
   }
 
   [[nodiscard]] double sum() const { return sum_; }
 
  private:
-  Terms terms_;
+  Penalty penalty_;
+  double weight_;
   std::span<double> gradient_;
-  Coefficients moments_x_, moments_v_, moments_a_;
-  std::size_t degree_ = 0;
   double sum_ = 0.0;
 };
 
@@ -173,21 +145,20 @@ class JacobianVisitor : public SampleVisitor<JacobianVisitor> {
         rows_(rows),
         row_(static_cast<std::size_t>(rows.cols())) {}
 
-  void begin_piece(const StepPolynomial& step) { degree_ = step.degree; }
-
-  void sample(std::size_t i, double tau, double, double, double) {
-    const SensitivityValues at = crashsim::evaluate(series_, degree_, tau);
-    Lanes accel = Lanes{};
-    for (int n = degree_; n >= 1; --n)
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        accel[lane] = accel[lane] * tau + n * series_.v[static_cast<std::size_t>(n)][lane];
-    const auto first = static_cast<Eigen::Index>(3 * i);
-    fill(first, accel, target_.accel_scale);
-    fill(first + 1, at.v, target_.velocity_scale);
-    fill(first + 2, at.x, target_.displacement_scale);
+  void samples(const Region&, const StepPolynomial& step, double tau_end, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const double tau = std::min(target_.time_s[i] - step.base, tau_end);
+      SensitivityValues at;
+      crashsim::evaluate(series_, step.degree, tau, at);
+      Lanes accel{};
+      for (int n = step.degree; n >= 1; --n)
+        accel = accel * tau + static_cast<double>(n) * series_.v[static_cast<std::size_t>(n)];
+      const auto row = static_cast<Eigen::Index>(3 * i);
+      fill(row, accel, target_.accel_scale);
+      fill(row + 1, at.v, target_.velocity_scale);
+      fill(row + 2, at.x, target_.displacement_scale);
+    }
   }
-
-  void end_piece(const StepPolynomial&) {}
 
  private:
   void fill(Eigen::Index row, const Lanes& functional, double scale) {
@@ -198,7 +169,6 @@ class JacobianVisitor : public SampleVisitor<JacobianVisitor> {
 
   Eigen::Ref<Eigen::MatrixXd> rows_;
   std::vector<double> row_;
-  int degree_ = 0;
 };
 
 }  // namespace
@@ -250,8 +220,8 @@ double FitObjective::evaluate(std::span<const double> parameters, double smoothi
   for (const FitTarget& target : targets_) {
     const CrushProblem problem{force_, target.mass_kg, target.impact_speed_mps, false};
     const double weight = target.factor / static_cast<double>(targets_.size());
-    LossVisitor visitor(problem, target, static_cast<int>(spring_count_), {loss_, smoothing, weight}, gradient,
-                        sensitivity_x_, sensitivity_v_);
+    LossVisitor visitor(problem, target, static_cast<int>(spring_count_), {loss_, smoothing, !gradient.empty()}, weight,
+                        gradient, sensitivity_x_, sensitivity_v_);
     const MotionSummary summary = integrate_motion(problem, target.time_s.back(), false, stepper, visitor);
     if (summary.end != MotionEnd::end_time) return std::numeric_limits<double>::infinity();
     total += weight * visitor.sum();
@@ -276,6 +246,20 @@ double FitObjective::roughness(std::span<const double> parameters, std::span<dou
   add_curve(0, spring_count_, scale_.spring);
   add_curve(spring_count_, size_ - spring_count_, scale_.damper);
   return sum;
+}
+
+Eigen::MatrixXd FitObjective::roughness_rows() const {
+  const auto rows_of = [](std::size_t knots) { return static_cast<Eigen::Index>(knots < 3 ? 0 : knots - 2); };
+  const Eigen::Index springs = rows_of(spring_count_), dampers = rows_of(size_ - spring_count_);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(smooth_ > 0.0 ? springs + dampers : 0, static_cast<Eigen::Index>(size_));
+  const double root = std::sqrt(smooth_ * static_cast<double>(targets_.size()));  // jacobian() is of the targets' sum
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    const bool is_spring = row < springs;
+    const Eigen::Index first = is_spring ? row : static_cast<Eigen::Index>(spring_count_) + row - springs;
+    rows.block(row, first, 1, 3) << 1.0, -2.0, 1.0;
+    rows.row(row) *= root / (is_spring ? scale_.spring : scale_.damper);
+  }
+  return rows;
 }
 
 Eigen::MatrixXd FitObjective::jacobian(std::span<const double> parameters) {

@@ -35,12 +35,15 @@ class FitObjective {
   FitObjective(const FitStructure& structure, std::span<const FitTarget> targets, Loss loss, double smooth);
 
   /// E, and its gradient when `gradient` is not empty; infinite when a simulation fails.
-  /// @param smoothing rounding of the corner of |u|, 0 for the true loss.
+  /// @param smoothing rounding of the corner of |u|, relative to each channel's largest u; 0 for the true loss.
   double evaluate(std::span<const double> parameters, double smoothing, std::span<double> gradient);
 
   /// Derivatives of the scaled residuals (acceleration, velocity, displacement of each sample in turn) by the
   /// parameters; rows are weighted as in E with the squared loss.
   Eigen::MatrixXd jacobian(std::span<const double> parameters);
+
+  /// Rows that the smoothing adds to jacobian(), none without smoothing.
+  [[nodiscard]] Eigen::MatrixXd roughness_rows() const;
 
   [[nodiscard]] std::size_t size() const { return size_; }
 

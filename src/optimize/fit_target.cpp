@@ -10,49 +10,84 @@ namespace {
 
 constexpr std::size_t kFewestSamples = 10;
 
-double inverse_maximum(const std::vector<double>& channel) {
+double maximum_of(const std::vector<double>& channel) {
   double maximum = 0.0;
   for (const double value : channel) maximum = std::max(maximum, std::fabs(value));
-  return maximum > 0.0 ? 1.0 / maximum : 0.0;
+  return maximum;
+}
+
+void check_given(const std::vector<double>& weights) {
+  const bool valid = weights.size() == 3 &&
+                     std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w) && w >= 0.0; });
+  if (!valid || weights[0] + weights[1] + weights[2] == 0.0)
+    throw InvalidInput(fmt::format(
+        "IdentifyOptions.weights = {}: three numbers >= 0, not all 0, are needed, for acceleration, velocity and "
+        "displacement",
+        fmt::join(weights, ",")));
 }
 
 void set_weights(FitTarget& target, const Setting<Weights>& weights) {
+  const double accel = maximum_of(target.accel_mps2), velocity = maximum_of(target.velocity_mps),
+               displacement = maximum_of(target.displacement_m);
   target.factor = 1.0;
   switch (weights.rule) {
     case Weights::normalised:
-      target.accel_scale = inverse_maximum(target.accel_mps2);
-      target.velocity_scale = inverse_maximum(target.velocity_mps);
-      target.displacement_scale = inverse_maximum(target.displacement_m);
+      target.accel_scale = 1.0 / accel;
+      target.velocity_scale = 1.0 / velocity;
+      target.displacement_scale = 1.0 / displacement;
       target.factor = 1.0 / static_cast<double>(target.time_s.size());
-      return;
+      break;
     case Weights::paper:
       target.accel_scale = target.velocity_scale = target.displacement_scale = 1.0;
-      return;
+      break;
     case Weights::given:
-      if (weights.numbers.size() != 3 ||
-          std::any_of(weights.numbers.begin(), weights.numbers.end(), [](double w) { return !(w >= 0.0); }))
-        throw InvalidInput(fmt::format(
-            "IdentifyOptions.weights = {}: three numbers >= 0 are needed, for acceleration, velocity and displacement",
-            fmt::join(weights.numbers, ",")));
+      check_given(weights.numbers);
       target.accel_scale = weights.numbers[0];
       target.velocity_scale = weights.numbers[1];
       target.displacement_scale = weights.numbers[2];
   }
+  target.accel_size = target.accel_scale * accel;
+  target.velocity_size = target.velocity_scale * velocity;
+  target.displacement_size = target.displacement_scale * displacement;
+}
+
+void check_channel(const std::vector<double>& channel, std::size_t samples, const char* name) {
+  if (channel.size() != samples)
+    throw InvalidInput(
+        fmt::format("pulse: {} has {} samples but time_s has {}: as many are needed", name, channel.size(), samples));
+  for (std::size_t i = 0; i < samples; ++i)
+    if (!std::isfinite(channel[i]))
+      throw InvalidInput(fmt::format("pulse: {}[{}] = {}: must be finite", name, i, channel[i]));
+}
+
+void check_pulse(const Pulse& pulse) {
+  const auto& t = pulse.time_s;
+  check_channel(t, t.size(), "time_s");
+  check_channel(pulse.accel_mps2, t.size(), "accel_mps2");
+  check_channel(pulse.velocity_mps, t.size(), "velocity_mps");
+  check_channel(pulse.displacement_m, t.size(), "displacement_m");
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (i == 0 ? t[i] < 0.0 : t[i] <= t[i - 1])
+      throw InvalidInput(fmt::format("pulse: time_s[{}] = {} s: times must increase from 0", i, t[i]));
+  if (!(pulse.impact_speed_mps > 0.0))
+    throw InvalidInput(fmt::format("pulse: impact_speed_mps = {} m/s: must be > 0", pulse.impact_speed_mps));
+  if (std::isnan(pulse.t_m_s))
+    throw InvalidInput(fmt::format(
+        "pulse: has no time of maximum crush: its velocity ({:.4g} m/s at {:.4g} s) never reaches zero; a longer "
+        "trace or the right impact speed is needed",
+        t.empty() ? kUnset : pulse.velocity_mps.back(), t.empty() ? kUnset : t.back()));
+  if (!(pulse.max_crush_m > 0.0))
+    throw InvalidInput(fmt::format("pulse: max_crush_m = {} m: must be > 0", pulse.max_crush_m));
 }
 
 }  // namespace
 
 FitTarget make_target(const Pulse& pulse, double mass_kg, const Setting<Weights>& weights) {
+  check_pulse(pulse);
   FitTarget target;
   target.mass_kg = std::isnan(mass_kg) ? pulse.mass_kg : mass_kg;
   if (std::isnan(target.mass_kg))
     throw InvalidInput("IdentifyOptions.mass_kg: not given, and the pulse does not say it: give the test mass");
-  if (std::isnan(pulse.t_m_s))
-    throw InvalidInput(fmt::format(
-        "pulse: has no time of maximum crush: its velocity ({:.4g} m/s at {:.4g} s) never reaches zero; a longer "
-        "trace or the right impact speed is needed",
-        pulse.velocity_mps.empty() ? kUnset : pulse.velocity_mps.back(),
-        pulse.time_s.empty() ? kUnset : pulse.time_s.back()));
   target.impact_speed_mps = pulse.impact_speed_mps;
   target.max_crush_m = pulse.max_crush_m;
   const auto count = std::upper_bound(pulse.time_s.begin(), pulse.time_s.end(), pulse.t_m_s) - pulse.time_s.begin();
@@ -66,6 +101,8 @@ FitTarget make_target(const Pulse& pulse, double mass_kg, const Setting<Weights>
   target.accel_mps2 = take(pulse.accel_mps2);
   target.velocity_mps = take(pulse.velocity_mps);
   target.displacement_m = take(pulse.displacement_m);
+  if (maximum_of(target.accel_mps2) == 0.0)
+    throw InvalidInput("pulse: accel_mps2 is zero up to t_m: there is no force to identify");
   set_weights(target, weights);
   return target;
 }

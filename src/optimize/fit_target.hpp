@@ -12,10 +12,12 @@ struct FitTarget {
   std::vector<double> time_s, accel_mps2, velocity_mps, displacement_m;
   double mass_kg = kUnset, impact_speed_mps = kUnset, max_crush_m = kUnset;
   double accel_scale = kUnset, velocity_scale = kUnset, displacement_scale = kUnset;
+  double accel_size = kUnset, velocity_size = kUnset, displacement_size = kUnset;  ///< scale * max|channel|.
   double factor = kUnset;
 };
 
-/// Samples 0..t_m of a pulse. @throws InvalidInput when the pulse has no t_m, no mass or fewer than 10 samples to t_m.
+/// Samples 0..t_m of a pulse. @throws InvalidInput when its arrays do not fit together, it has no t_m, speed or mass,
+/// or fewer than 10 samples to t_m.
 FitTarget make_target(const Pulse& pulse, double mass_kg, const Setting<Weights>& weights);
 
 /// A loss and its derivative at a scaled residual.

@@ -47,7 +47,8 @@ StartResult run_start(const MultistartProblem& problem, FitObjective& objective,
     return minimum.value;
   };
   if (problem.options.loss == Loss::l1)
-    for (const double rung : kSmoothingLadder) descend(rung, kFtolRelative);
+    for (const double rung : kSmoothingLadder)
+      if (!std::isfinite(descend(rung, kFtolRelative))) break;
   result.report.error = descend(0.0, kFtolPolish);
   result.report.failed = !std::isfinite(result.report.error);
   ordinates(unit);

@@ -29,6 +29,7 @@ void set_forcing(const ForceAxis& axis, int segment, int offset, int column, con
 
 }  // namespace
 
+CRASHSIM_WIDEST_VECTORS
 void sensitivity_series(const CrushProblem& problem, const Region& region, const StepPolynomial& step,
                         int damper_offset, SensitivitySeries& series) {
   const auto degree = static_cast<std::size_t>(step.degree);
@@ -37,6 +38,8 @@ void sensitivity_series(const CrushProblem& problem, const Region& region, const
   series.x[0][0] = 1.0;
   series.v[0][1] = 1.0;
   const double m = problem.mass_kg;
+  Lanes* const sx = series.x.data();
+  Lanes* const sv = series.v.data();
   if (!region.separated) {
     set_forcing(problem.force.spring, region.spring, 0, kHomogeneous, step.x, step.degree, m, series);
     set_forcing(problem.force.damper, region.damper, damper_offset, kHomogeneous + 2, step.v, step.degree, m, series);
@@ -51,26 +54,25 @@ void sensitivity_series(const CrushProblem& problem, const Region& region, const
   alpha[0] -= force.spring[1] / m;
   beta[0] -= force.damper[1] / m;
   for (std::size_t n = 0; n < degree; ++n) {
-    Lanes sum = series.v[n + 1];
-    for (std::size_t i = 0; i <= n; ++i)
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        sum[lane] += alpha[i] * series.x[n - i][lane] + beta[i] * series.v[n - i][lane];
+    Lanes sum = sv[n + 1];
+    for (std::size_t i = 0; i <= n; ++i) sum += alpha[i] * sx[n - i] + beta[i] * sv[n - i];
     const double factor = 1.0 / static_cast<double>(n + 1);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      series.x[n + 1][lane] = series.v[n][lane] * factor;
-      series.v[n + 1][lane] = sum[lane] * factor;
-    }
+    sx[n + 1] = sv[n] * factor;
+    sv[n + 1] = sum * factor;
   }
 }
 
-SensitivityValues evaluate(const SensitivitySeries& series, int degree, double tau) {
-  SensitivityValues at{series.x[static_cast<std::size_t>(degree)], series.v[static_cast<std::size_t>(degree)]};
-  for (int n = degree - 1; n >= 0; --n)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      at.x[lane] = at.x[lane] * tau + series.x[static_cast<std::size_t>(n)][lane];
-      at.v[lane] = at.v[lane] * tau + series.v[static_cast<std::size_t>(n)][lane];
-    }
-  return at;
+CRASHSIM_WIDEST_VECTORS
+void evaluate(const SensitivitySeries& series, int degree, double tau, SensitivityValues& at) {
+  const Lanes* const sx = series.x.data();
+  const Lanes* const sv = series.v.data();
+  Lanes x = sx[degree], v = sv[degree];
+  for (int n = degree - 1; n >= 0; --n) {
+    x = x * tau + sx[n];
+    v = v * tau + sv[n];
+  }
+  at.x = x;
+  at.v = v;
 }
 
 }  // namespace crashsim

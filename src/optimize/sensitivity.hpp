@@ -7,17 +7,15 @@
 
 #include <array>
 
+#include "optimize/simd.hpp"
 #include "solver/crush_events.hpp"
 
 namespace crashsim {
 
 inline constexpr int kHomogeneous = 2;  ///< Columns 0, 1: from a unit displacement, from a unit velocity.
 inline constexpr int kColumns = 6;      ///< Then the acting ordinates: two of the spring, two of the damper.
-inline constexpr int kLanes = 8;        ///< Columns, padded for vector registers.
 
-using Lanes = std::array<double, kLanes>;
-
-/// Coefficients of the columns' displacements and velocities.
+/// Coefficients of the columns' displacements and velocities, one column a lane.
 struct SensitivitySeries {
   std::array<Lanes, kMaxDegree + 1> x, v;
   std::array<int, kColumns> ordinate;  ///< Parameter index of an acting column, -1: none; homogeneous columns -1.
@@ -31,6 +29,6 @@ void sensitivity_series(const CrushProblem& problem, const Region& region, const
 struct SensitivityValues {
   Lanes x, v;
 };
-SensitivityValues evaluate(const SensitivitySeries& series, int degree, double tau);
+void evaluate(const SensitivitySeries& series, int degree, double tau, SensitivityValues& at);
 
 }  // namespace crashsim
