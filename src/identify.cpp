@@ -13,27 +13,35 @@
 #include "optimize/equation_error.hpp"
 #include "optimize/multistart.hpp"
 #include "optimize/verdict.hpp"
+#include "solver/crush_motion.hpp"
 
 namespace crashsim {
 namespace {
 
 constexpr double kBest = 1e-3;         // starts within this of the best E, relative, are at the best
 constexpr double kAgreement = 1e-6;    // between the Taylor kernel's E and CVODE's
+constexpr double kLeastError = 1e-3;   // E below which the agreement is absolute
 constexpr double kBoundFactor = 2.0;   // spring or damper alone may carry this much of the measured force
+constexpr double kLeastGap = 0.1;      // between quantile knots, relative to even spacing
 constexpr double kRecordRtol = 1e-10;  // of the simulation E is reported from
 
+/// Knots at quantiles of the samples, moved apart where samples crowd: kLeastGap of the even spacing is kept.
 std::vector<double> quantile_knots(std::vector<double> samples, double last, int count) {
   std::sort(samples.begin(), samples.end());
   std::vector<double> knots = uniform_knots(last, count);
+  const double gap = count > 1 ? kLeastGap * knots[1] : 0.0;
   for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
     const double position =
         static_cast<double>(i) / static_cast<double>(knots.size() - 1) * static_cast<double>(samples.size() - 1);
-    knots[i] = samples[static_cast<std::size_t>(position)];
+    knots[i] = std::max(samples[static_cast<std::size_t>(position)], knots[i - 1] + gap);
   }
+  for (std::size_t i = knots.size(); i-- > 2;) knots[i - 1] = std::min(knots[i - 1], knots[i] - gap);
   return knots;
 }
 
 void check_given_knots(const std::vector<double>& knots) {
+  if (knots.empty())
+    throw InvalidInput("IdentifyOptions.knots: no numbers given: give the spring's knots in m, from 0");
   for (std::size_t i = 0; i < knots.size(); ++i)
     if (i == 0 ? knots[i] != 0.0 : knots[i] <= knots[i - 1])
       throw InvalidInput(
@@ -79,8 +87,11 @@ void bound_curve(const std::vector<double>& knots, bool multiplied, std::span<co
   for (std::size_t i = 0; i < knots.size(); ++i) {
     const double low = i > 0 ? knots[i - 1] : 0.0;
     const double high = i + 1 < knots.size() ? knots[i + 1] : std::numeric_limits<double>::infinity();
-    const double least = knots.size() > 1 ? 0.25 * knots[1] : 0.0;
-    double bound = 0.0;
+    double bound = 0.0, range = knots.size() > 1 ? knots[1] : 0.0;
+    if (knots.size() == 1)
+      for (const FitTarget& target : targets)
+        for (const double s : target.*variable) range = std::max(range, s);
+    const double least = 0.25 * range;
     for (const FitTarget& target : targets)
       for (std::size_t j = 0; j < target.time_s.size(); ++j) {
         const double s = (target.*variable)[j];
@@ -146,6 +157,10 @@ FitError mean_error(const CrushModel& model, std::span<const FitTarget> targets,
   return mean;
 }
 
+bool errors_agree(double kernel, double record) {
+  return std::fabs(kernel - record) <= kAgreement * std::max(record, kLeastError);
+}
+
 /// Index of the best start, -1 when all failed; ties go to the first.
 int best_start(const std::vector<StartResult>& results) {
   int best = -1;
@@ -157,27 +172,88 @@ int best_start(const std::vector<StartResult>& results) {
   return best;
 }
 
-void judge(const FitStructure& structure, std::span<const FitTarget> targets, const IdentifyOptions& options,
-           const Eigen::VectorXd& upper, std::span<const double> parameters, Identification& out) {
-  FitObjective objective(structure, targets, options.loss, options.smooth);
+/// What an identification is made from.
+struct Study {
+  const IdentifyOptions& options;
+  std::vector<FitTarget> targets;
+  FitStructure structure;
+  Eigen::VectorXd upper;
+
+  Study(std::span<const Pulse> pulses, const IdentifyOptions& how) : options(how) {
+    for (const Pulse& pulse : pulses) targets.push_back(make_target(pulse, how.mass_kg, how.weights));
+    structure = make_structure(how, targets);
+    upper = upper_bounds(structure, how, targets);
+  }
+};
+
+/// E by CVODE, and whether the Taylor kernel, which fitted, agrees.
+void record_error(const Study& study, std::span<const double> parameters, Identification& out) {
+  FitObjective objective(study.structure, study.targets, study.options.loss, 0.0);
   const double kernel_error = objective.evaluate(parameters, 0.0, {});
-  FitObjective without_smooth(structure, targets, options.loss, 0.0);
-  out.error = mean_error(out.model, targets, options.loss);
-  const double plain_error = options.smooth > 0.0 ? without_smooth.evaluate(parameters, 0.0, {}) : kernel_error;
-  if (std::fabs(plain_error - out.error.total) > kAgreement * std::max(out.error.total, 1e-3)) {
+  out.error = mean_error(out.model, study.targets, study.options.loss);
+  if (!errors_agree(kernel_error, out.error.total)) {
     out.outcome = IdentifyOutcome::engines_disagree;
     out.message =
         fmt::format("the Taylor kernel's E = {:.10g} and CVODE's E = {:.10g} disagree: the model is not usable",
-                    plain_error, out.error.total);
+                    kernel_error, out.error.total);
   }
+}
+
+/// Model, error and verdict of the parameters found.
+void judge(const Study& study, std::span<double> parameters, Identification& out) {
+  const auto& [options, targets, structure, upper] = study;
+  FitObjective objective(structure, targets, options.loss, options.smooth);
   const Eigen::MatrixXd jacobian = objective.jacobian(parameters);
+  if (options.smooth == 0.0) hold_untouched(structure, touched_ordinates(jacobian, upper), parameters);
+  out.model = make_model(structure, parameters, targets.front().mass_kg, targets.front().impact_speed_mps);
+  record_error(study, parameters, out);
   FitObjective squared(structure, targets, Loss::l2, 0.0);
   const double freedom = std::max<double>(1.0, static_cast<double>(jacobian.rows() - jacobian.cols()));
   const double variance = squared.evaluate(parameters, 0.0, {}) * static_cast<double>(targets.size()) / freedom;
-  Identifiability found = judge_identifiability(structure, parameters, upper, jacobian, variance, targets.size());
+  Identifiability found = judge_identifiability(structure, parameters, upper, jacobian, objective.roughness_rows(),
+                                                variance, targets.size());
   out.verdict = std::move(found.verdict);
   out.ordinates = std::move(found.ordinates);
   out.correlation = std::move(found.correlation);
+}
+
+/// Takes the starts into the result. @returns the best one's parameters, none when every start failed.
+std::vector<double> take_starts(const std::vector<StartResult>& results, Identification& out) {
+  const int best = best_start(results);
+  for (const StartResult& result : results) {
+    if (result.report.evaluations == 0) continue;
+    out.starts.push_back(result.report);
+    out.evaluations += result.report.evaluations;
+    if (best >= 0 && result.report.error <= (1.0 + kBest) * results[static_cast<std::size_t>(best)].report.error)
+      ++out.starts_at_best;
+  }
+  if (out.starts.size() < results.size()) {
+    out.outcome = IdentifyOutcome::interrupted;
+    out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
+  } else if (best < 0) {
+    out.outcome = IdentifyOutcome::every_start_failed;
+    out.message = fmt::format(
+        "all {} starts failed: their simulations did not reach the end of the pulse within {} steps: check the pulse's "
+        "times and units, or lower the bounds",
+        results.size(), kStepLimit);
+  }
+  return best < 0 ? std::vector<double>() : results[static_cast<std::size_t>(best)].parameters;
+}
+
+std::vector<double> find_parameters(const Study& study, const Progress& progress, Identification& out) {
+  const auto& [options, targets, structure, upper] = study;
+  const Eigen::VectorXd linear = solve_equation_error(structure, targets, upper, options.smooth);
+  if (options.method == IdentifyMethod::multistart)
+    return take_starts(run_starts({structure, targets, options, upper, linear}, progress), out);
+  std::vector<double> parameters(linear.begin(), linear.end());
+  FitObjective objective(structure, targets, options.loss, options.smooth);
+  if (std::isfinite(objective.evaluate(parameters, 0.0, {}))) return parameters;
+  out.outcome = IdentifyOutcome::every_start_failed;
+  out.message = fmt::format(
+      "the equation-error model's simulation did not reach the end of the pulse within {} steps: check the pulse's "
+      "times and units, or lower the bounds",
+      kStepLimit);
+  return {};
 }
 
 }  // namespace
@@ -186,39 +262,14 @@ Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& op
   const auto begin = std::chrono::steady_clock::now();
   validate_options(options, "IdentifyOptions");
   if (pulses.empty()) throw InvalidInput("identify: no pulse given");
-  std::vector<FitTarget> targets;
-  for (const Pulse& pulse : pulses) targets.push_back(make_target(pulse, options.mass_kg, options.weights));
-  const FitStructure structure = make_structure(options, targets);
-  const Eigen::VectorXd upper = upper_bounds(structure, options, targets);
-  const Eigen::VectorXd linear = solve_equation_error(structure, targets, upper, options.smooth);
-
+  const Study study(pulses, options);
   Identification out;
   out.seed = options.seed;
-  std::vector<double> parameters(linear.begin(), linear.end());
-  if (options.method == IdentifyMethod::multistart) {
-    const std::vector<StartResult> results = run_starts({structure, targets, options, upper, linear}, progress);
-    const int best = best_start(results);
-    for (const StartResult& result : results) {
-      if (result.report.evaluations == 0) continue;
-      out.starts.push_back(result.report);
-      out.evaluations += result.report.evaluations;
-      if (best >= 0 && result.report.error <= (1.0 + kBest) * results[static_cast<std::size_t>(best)].report.error)
-        ++out.starts_at_best;
-    }
-    if (best >= 0) parameters = results[static_cast<std::size_t>(best)].parameters;
-    if (out.starts.size() < results.size()) {
-      out.outcome = IdentifyOutcome::interrupted;
-      out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
-    } else if (best < 0) {
-      out.outcome = IdentifyOutcome::every_start_failed;
-      out.message =
-          fmt::format("all {} starts failed: their simulations did not reach the end of the pulse", results.size());
-    }
-    if (best < 0) return out;
+  std::vector<double> parameters = find_parameters(study, progress, out);
+  if (!parameters.empty()) {
+    judge(study, parameters, out);
+    if (out.outcome == IdentifyOutcome::not_run) out.outcome = IdentifyOutcome::completed;
   }
-  out.model = make_model(structure, parameters, targets.front().mass_kg, targets.front().impact_speed_mps);
-  judge(structure, targets, options, upper, parameters, out);
-  if (out.outcome == IdentifyOutcome::not_run) out.outcome = IdentifyOutcome::completed;
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }

@@ -82,7 +82,7 @@ class Object {
   }
   template <class E>
   void read_choice(std::string_view key, E& value) const {
-    if (has(key)) value = static_cast<E>(detail::to_choice(option(key), enum_names<E>, name(key)));
+    if (has(key)) value = static_cast<E>(detail::to_choice(option(key), enum_names<E>, enum_aliases<E>, name(key)));
   }
   [[nodiscard]] std::string name(std::string_view key) const { return fmt::format("{}: {}", what_, key); }
 

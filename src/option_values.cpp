@@ -129,10 +129,13 @@ std::vector<std::string> to_texts(const OptionValue& value, std::string_view wha
   throw_kind(what, "text or a list of texts", value);
 }
 
-int to_choice(const OptionValue& value, std::span<const std::string_view> names, std::string_view what) {
+int to_choice(const OptionValue& value, std::span<const std::string_view> names, std::span<const NameAlias> aliases,
+              std::string_view what) {
   const std::string text = to_text(value, what);
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == text) return static_cast<int>(i);
+  for (const NameAlias& alias : aliases)
+    if (alias.alias == text) return alias.value;
   throw_unknown_name(what, text, {names.begin(), names.end()});
 }
 

@@ -16,7 +16,8 @@
 
 namespace crashsim {
 
-/// Penalty on a residual r (relative to its channel's maximum): |r|, r^2, or Huber's with threshold 0.05.
+/// Penalty on a weighted residual r (normalised: relative to its channel's maximum): |r|, r^2, or Huber's
+/// (|r| > 0.05: |r| - 0.025, else 10 r^2).
 enum class Loss { l1, l2, huber };
 inline constexpr std::string_view kLossNames[] = {"l1", "l2", "huber"};
 template <>
@@ -45,6 +46,10 @@ enum class Algorithm { lbfgs, slsqp, tnewton, var2 };
 inline constexpr std::string_view kAlgorithmNames[] = {"lbfgs", "slsqp", "tnewton", "var2"};
 template <>
 inline constexpr std::span<const std::string_view> enum_names<Algorithm>{kAlgorithmNames};
+inline constexpr NameAlias kAlgorithmAliases[] = {
+    {"LD_LBFGS", 0}, {"LD_SLSQP", 1}, {"LD_TNEWTON_PRECOND_RESTART", 2}, {"LD_VAR2", 3}};  ///< NLopt's own names.
+template <>
+inline constexpr std::span<const NameAlias> enum_aliases<Algorithm>{kAlgorithmAliases};
 
 /// How to identify.
 struct IdentifyOptions {
@@ -56,7 +61,8 @@ struct IdentifyOptions {
   CrushLaw law = CrushLaw::stiffness;
   int spring_knots = 7;
   int damper_knots = 7;
-  Setting<KnotPlacement> knots;  ///< Given: crush knots [m], the first 0; damper knots keep the same fractions.
+  /// Given: crush knots [m], the first 0, instead of spring_knots; damper knots at the same fractions of the speed.
+  Setting<KnotPlacement> knots;
   IdentifyMethod method = IdentifyMethod::multistart;
   Algorithm algorithm = Algorithm::lbfgs;
   double spring_upper = kUnset;  ///< Upper bound of spring ordinates; unset: from the data.
@@ -77,7 +83,7 @@ inline constexpr std::array<Field<IdentifyOptions>, 15> kIdentifyFields = {{
      between(0, 100)},
     {"damper_knots", "damper-knots", "", "knots of the damper; 0: no damper", &IdentifyOptions::damper_knots,
      between(0, 100)},
-    {"knots", "knots", "", "placement of the knots: uniform, quantile, or spring knots in m (dampers alike)",
+    {"knots", "knots", "m", "placement of the knots: uniform, quantile, or the spring's (dampers alike)",
      setting<&IdentifyOptions::knots>()},
     {"method", "method", "", "multistart optimisation, or equation error alone", choice<&IdentifyOptions::method>()},
     {"algorithm", "algorithm", "", "NLopt algorithm", choice<&IdentifyOptions::algorithm>()},
@@ -113,8 +119,8 @@ struct OrdinateReport {
   double value = kUnset;           ///< [N/m], [N] or [N s/m].
   double standard_error = kUnset;  ///< Unset when the data say nothing about it.
   double upper_bound = kUnset;
-  bool untouched = false;  ///< No sample depends on it: not fitted.
-  bool at_bound = false;   ///< At a bound.
+  bool untouched = false;  ///< No sample depends on it: not fitted, but held as the nearest fitted one.
+  bool at_bound = false;   ///< At a bound, 0 or the upper.
 };
 
 /// One start.

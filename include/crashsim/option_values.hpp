@@ -23,7 +23,8 @@ bool to_bool(const OptionValue& value, std::string_view what);
 std::string to_text(const OptionValue& value, std::string_view what);
 std::vector<double> to_numbers(const OptionValue& value, std::string_view unit, std::string_view what);
 std::vector<std::string> to_texts(const OptionValue& value, std::string_view what);
-int to_choice(const OptionValue& value, std::span<const std::string_view> names, std::string_view what);
+int to_choice(const OptionValue& value, std::span<const std::string_view> names, std::span<const NameAlias> aliases,
+              std::string_view what);
 /// Index of the rule named, or of the last one with `numbers` filled.
 int to_setting(const OptionValue& value, std::span<const std::string_view> names, std::string_view unit,
                std::string_view what, std::vector<double>& numbers);
@@ -66,7 +67,7 @@ void set_option(S& options, const Field<S>& field, const OptionValue& value, std
       [&](auto member) {
         using M = decltype(member);
         if constexpr (std::is_same_v<M, ChoiceMember<S>>) {
-          member.set(options, detail::to_choice(value, member.names, what));
+          member.set(options, detail::to_choice(value, member.names, member.aliases, what));
         } else if constexpr (std::is_same_v<M, SettingMember<S>>) {
           member.set(options, detail::to_setting(value, member.names, field.unit, what, member.numbers(options)));
         } else if constexpr (std::is_same_v<M, double S::*>) {

@@ -38,6 +38,14 @@ struct Setting {
 template <class E>
 inline constexpr std::span<const std::string_view> enum_names{};
 
+/// Another spelling of an enum's value, accepted where its name is.
+struct NameAlias {
+  std::string_view alias;
+  int value;
+};
+template <class E>
+inline constexpr std::span<const NameAlias> enum_aliases{};
+
 /// Name of an enum value.
 template <class E>
 constexpr std::string_view name_of(E value) {
@@ -48,6 +56,7 @@ constexpr std::string_view name_of(E value) {
 template <class S>
 struct ChoiceMember {
   std::span<const std::string_view> names;
+  std::span<const NameAlias> aliases;
   int (*get)(const S&);
   void (*set)(S&, int);
 };
@@ -79,7 +88,7 @@ template <auto M>
 constexpr auto choice() {
   using S = decltype(detail::struct_of(M));
   using E = decltype(detail::type_of(M));
-  return Member<S>(ChoiceMember<S>{enum_names<E>, [](const S& s) { return static_cast<int>(s.*M); },
+  return Member<S>(ChoiceMember<S>{enum_names<E>, enum_aliases<E>, [](const S& s) { return static_cast<int>(s.*M); },
                                    [](S& s, int i) { s.*M = static_cast<E>(i); }});
 }
 

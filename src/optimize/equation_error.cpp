@@ -1,5 +1,6 @@
 #include "optimize/equation_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -42,16 +43,22 @@ Eigen::VectorXd solve_equation_error(const FitStructure& structure, std::span<co
   Eigen::VectorXd b = Eigen::VectorXd::Zero(a.rows());
   Index row = 0;
   for (const FitTarget& target : targets) {
-    const double weight = target.accel_scale * std::sqrt(target.factor) / target.mass_kg;
+    // Acceleration without weight in E still has to say what the force is.
+    const double scale =
+        target.accel_scale > 0.0 ? target.accel_scale : target.velocity_scale + target.displacement_scale;
+    const double weight = scale * std::sqrt(target.factor) / target.mass_kg;
     for (std::size_t i = 0; i < target.time_s.size(); ++i, ++row) {
-      add_row(spring, target.displacement_m[i], 0, weight, a.row(row));
+      // v > 0 up to t_m: a negative x is rounding, and must not turn a force that does not vanish at 0.
+      add_row(spring, std::max(target.displacement_m[i], 0.0), 0, weight, a.row(row));
       add_row(damper, target.velocity_mps[i], springs, weight, a.row(row));
       b[row] = -weight * target.mass_kg * target.accel_mps2[i];
     }
   }
   const ForceScale scale = force_scale(structure.law, targets);
-  row = add_roughness(0, springs, std::sqrt(smooth) / scale.spring, row, a);
-  add_roughness(springs, dampers, std::sqrt(smooth) / scale.damper, row, a);
+  const double rough =
+      std::sqrt(smooth * static_cast<double>(targets.size()));  // E is the targets' mean, this their sum
+  row = add_roughness(0, springs, rough / scale.spring, row, a);
+  add_roughness(springs, dampers, rough / scale.damper, row, a);
   return bounded_least_squares(a, b, upper);
 }
 

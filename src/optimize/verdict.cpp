@@ -71,53 +71,104 @@ std::vector<OrdinateReport> describe(const FitStructure& structure, std::span<co
   return reports;
 }
 
+/// Columns of unit length: sensitivities of what is determined, by samples or smoothing.
+struct ScaledColumns {
+  std::vector<std::size_t> ordinates;
+  std::size_t springs = 0;  ///< So many of them belong to the spring.
+  Eigen::MatrixXd columns;
+  Eigen::VectorXd norms;
+};
+
+ScaledColumns scale_columns(const FitStructure& structure, const Eigen::VectorXd& upper,
+                            const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& roughness) {
+  Eigen::MatrixXd stacked(jacobian.rows() + roughness.rows(), jacobian.cols());
+  stacked << jacobian, roughness;
+  const std::vector<bool> determined = touched_ordinates(stacked, upper);
+  ScaledColumns scaled;
+  for (std::size_t i = 0; i < determined.size(); ++i) {
+    if (!determined[i]) continue;
+    scaled.ordinates.push_back(i);
+    if (i < structure.spring_knots.size()) ++scaled.springs;
+  }
+  const auto count = static_cast<Index>(scaled.ordinates.size());
+  scaled.columns.resize(stacked.rows(), count);
+  scaled.norms.resize(count);
+  for (Index j = 0; j < count; ++j) {
+    const auto column = stacked.col(static_cast<Index>(scaled.ordinates[static_cast<std::size_t>(j)]));
+    scaled.norms[j] = column.norm();
+    scaled.columns.col(j) = column / scaled.norms[j];
+  }
+  return scaled;
+}
+
+void set_covariance(const ScaledColumns& scaled, const Eigen::MatrixXd& covariance, double variance,
+                    Identifiability& out) {
+  const Index count = scaled.norms.size();
+  for (Index i = 0; i < count; ++i) {
+    const std::size_t row = scaled.ordinates[static_cast<std::size_t>(i)];
+    out.ordinates[row].standard_error = std::sqrt(variance * covariance(i, i)) / scaled.norms[i];
+    for (Index j = 0; j < count; ++j)
+      out.correlation[row][scaled.ordinates[static_cast<std::size_t>(j)]] =
+          covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+  }
+}
+
 }  // namespace
+
+std::vector<bool> touched_ordinates(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& upper) {
+  const Eigen::VectorXd sizes = jacobian.colwise().norm().transpose().cwiseProduct(upper);
+  const double largest = sizes.maxCoeff();
+  std::vector<bool> touched;
+  for (const double size : sizes) touched.push_back(size > kUntouched * largest);
+  return touched;
+}
+
+void hold_untouched(const FitStructure& structure, const std::vector<bool>& touched, std::span<double> parameters) {
+  const auto hold = [&](std::size_t first, std::size_t count) {
+    const auto end = static_cast<std::ptrdiff_t>(first + count);
+    for (auto i = static_cast<std::ptrdiff_t>(first); i < end; ++i) {
+      if (touched[static_cast<std::size_t>(i)]) continue;
+      for (std::ptrdiff_t distance = 1; distance < static_cast<std::ptrdiff_t>(count); ++distance)
+        for (const std::ptrdiff_t j : {i - distance, i + distance}) {
+          if (j < static_cast<std::ptrdiff_t>(first) || j >= end || !touched[static_cast<std::size_t>(j)]) continue;
+          parameters[static_cast<std::size_t>(i)] = parameters[static_cast<std::size_t>(j)];
+          distance = end;
+          break;
+        }
+    }
+  };
+  hold(0, structure.spring_knots.size());
+  hold(structure.spring_knots.size(), structure.damper_knots.size());
+}
 
 Identifiability judge_identifiability(const FitStructure& structure, std::span<const double> parameters,
                                       const Eigen::VectorXd& upper, const Eigen::MatrixXd& jacobian,
-                                      double residual_variance, std::size_t tests) {
-  const auto n = static_cast<std::size_t>(jacobian.cols());
-  const Eigen::VectorXd norms = jacobian.colwise().norm().transpose();
-  const double largest = norms.cwiseProduct(upper).maxCoeff();
-  std::vector<bool> is_touched(n);
-  std::vector<Index> touched;
-  Index touched_springs = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto column = static_cast<Index>(i);
-    is_touched[i] = norms[column] * upper[column] > kUntouched * largest;
-    if (!is_touched[i]) continue;
-    touched.push_back(column);
-    if (i < structure.spring_knots.size()) ++touched_springs;
-  }
+                                      const Eigen::MatrixXd& roughness, double residual_variance, std::size_t tests) {
+  const std::size_t n = parameters.size();
+  const std::vector<bool> touched = touched_ordinates(jacobian, upper);
   Identifiability out;
-  out.ordinates = describe(structure, parameters, upper, is_touched);
+  out.ordinates = describe(structure, parameters, upper, touched);
   out.correlation.assign(n, std::vector<double>(n, kUnset));
-  const auto count = static_cast<Index>(touched.size());
-  Eigen::MatrixXd scaled(jacobian.rows(), count);
-  for (Index j = 0; j < count; ++j) {
-    const Index column = touched[static_cast<std::size_t>(j)];
-    scaled.col(j) = jacobian.col(column) / norms[column];
+  const ScaledColumns scaled = scale_columns(structure, upper, jacobian, roughness);
+  const auto count = static_cast<Index>(scaled.ordinates.size());
+  if (count == 0) {
+    out.verdict.message = "no sample depends on any ordinate";
+    return out;
   }
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled.columns, Eigen::ComputeThinV);
   const Eigen::VectorXd& sigma = svd.singularValues();
+  const auto springs = static_cast<Index>(scaled.springs);
   out.verdict.rank = static_cast<int>((sigma.array() > kRankTolerance * sigma[0]).count());
   out.verdict.condition = sigma[0] / sigma[count - 1];
   out.verdict.spring_damper_cosine =
-      largest_cosine(scaled.leftCols(touched_springs), scaled.rightCols(count - touched_springs));
+      largest_cosine(scaled.columns.leftCols(springs), scaled.columns.rightCols(count - springs));
   out.verdict.identifiable =
-      out.verdict.rank == count && static_cast<std::size_t>(count) == n && out.verdict.condition <= kWellConditioned;
-  out.verdict.message = explain(out.verdict, count, n - touched.size(), tests);
+      out.verdict.rank == count && scaled.ordinates.size() == n && out.verdict.condition <= kWellConditioned;
+  const auto untouched = static_cast<std::size_t>(std::count(touched.begin(), touched.end(), false));
+  out.verdict.message = explain(out.verdict, count, untouched, tests);
   if (out.verdict.rank < count) return out;  // no covariance
   const Eigen::MatrixXd half = svd.matrixV() * sigma.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd covariance = half * half.transpose();
-  for (Index i = 0; i < count; ++i) {
-    const auto row = static_cast<std::size_t>(touched[static_cast<std::size_t>(i)]);
-    out.ordinates[row].standard_error =
-        std::sqrt(residual_variance * covariance(i, i)) / norms[touched[static_cast<std::size_t>(i)]];
-    for (Index j = 0; j < count; ++j)
-      out.correlation[row][static_cast<std::size_t>(touched[static_cast<std::size_t>(j)])] =
-          covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
-  }
+  set_covariance(scaled, half * half.transpose(), residual_variance, out);
   return out;
 }
 
