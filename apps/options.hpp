@@ -68,6 +68,7 @@ class Flags {
   /// Flags offered, for suggestions.
   [[nodiscard]] std::vector<std::string_view> names() const {
     std::vector<std::string_view> names;
+    names.reserve(offered_.size());
     for (const Field<S>* field : offered_) names.push_back(field->flag);
     return names;
   }

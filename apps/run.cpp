@@ -27,7 +27,7 @@ std::vector<std::string> command_line_of(const Record& record) {
       line.push_back(flag + "=" + text);
     }
   }
-  line.push_back("--");
+  line.emplace_back("--");
   line.insert(line.end(), record.arguments.begin(), record.arguments.end());
   return line;
 }
