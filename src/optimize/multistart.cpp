@@ -11,10 +11,14 @@
 namespace crashsim {
 namespace {
 
-// Rounding of |u| on the way to the true loss; u is relative to a channel's maximum, noise about 1e-2.
-constexpr double kSmoothingLadder[] = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
-constexpr double kFtolRelative = 1e-6;  // on a rung; starts agree within 1e-3
-constexpr double kFtolPolish = 1e-9;
+/// Rounding of |u| on the way to the true loss, relative to each channel's largest u: from nearly quadratic to well
+/// below the residuals of a real test. Each rung is followed until E changes by less than `ftol`.
+struct Rung {
+  double smoothing, ftol;
+};
+constexpr Rung kLadder[] = {{3e-1, 1e-5}, {3e-2, 1e-6}, {3e-3, 1e-7}, {3e-4, 1e-7}};
+constexpr double kFtolPolish = 1e-6;   // on the true |u|, where starts agree within 1e-3
+constexpr double kFtolSmooth = 1e-9;   // on losses that need no ladder
 constexpr int kMaxEvaluations = 2000;  // on a rung
 
 std::uint64_t mix(std::uint64_t z) {  // SplitMix64's output function
@@ -39,17 +43,18 @@ StartResult run_start(const MultistartProblem& problem, FitObjective& objective,
   std::vector<double> unit = initial_ordinates(problem, index);
   for (std::size_t i = 0; i < n; ++i) unit[i] /= problem.upper[static_cast<Eigen::Index>(i)];
   StartResult result;
-  const auto descend = [&](double rung, double ftol) {
-    smoothing = rung;
+  const auto descend = [&](double rounding, double ftol) {
+    smoothing = rounding;
     const Minimum minimum = minimize_in_unit_box(problem.options.algorithm, function, unit, ftol, kMaxEvaluations);
     unit = minimum.point;
     result.report.evaluations += minimum.evaluations;
     return minimum.value;
   };
-  if (problem.options.loss == Loss::l1)
-    for (const double rung : kSmoothingLadder)
-      if (!std::isfinite(descend(rung, kFtolRelative))) break;
-  result.report.error = descend(0.0, kFtolPolish);
+  const bool has_corner = problem.options.loss == Loss::l1;
+  if (has_corner)
+    for (const Rung& rung : kLadder)
+      if (!std::isfinite(descend(rung.smoothing, rung.ftol))) break;
+  result.report.error = descend(0.0, has_corner ? kFtolPolish : kFtolSmooth);
   result.report.failed = !std::isfinite(result.report.error);
   ordinates(unit);
   result.parameters = parameters;

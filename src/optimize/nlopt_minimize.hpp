@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <crashsim/identify.hpp>
+#include <crashsim/identify_options.hpp>
 
 namespace crashsim {
 
