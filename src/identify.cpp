@@ -262,9 +262,15 @@ Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& op
   const auto begin = std::chrono::steady_clock::now();
   validate_options(options, "IdentifyOptions");
   if (pulses.empty()) throw InvalidInput("identify: no pulse given");
-  const Study study(pulses, options);
   Identification out;
   out.seed = options.seed;
+  for (const Pulse& pulse : pulses) {
+    if (pulse.time_s.empty() || !std::isnan(pulse.t_m_s)) continue;
+    out.outcome = IdentifyOutcome::no_max_crush;
+    out.message = no_max_crush_message(pulse);
+    return out;
+  }
+  const Study study(pulses, options);
   std::vector<double> parameters = find_parameters(study, progress, out);
   if (!parameters.empty()) {
     judge(study, parameters, out);

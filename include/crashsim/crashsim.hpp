@@ -9,6 +9,7 @@
 #include <crashsim/files.hpp>
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
+#include <crashsim/identify_options.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/named_number.hpp>

@@ -49,9 +49,9 @@ struct StartReport {
 };
 
 /// How an identification ended.
-enum class IdentifyOutcome { not_run, completed, interrupted, every_start_failed, engines_disagree };
-inline constexpr std::string_view kIdentifyOutcomeNames[] = {"not_run", "completed", "interrupted",
-                                                             "every_start_failed", "engines_disagree"};
+enum class IdentifyOutcome { not_run, completed, no_max_crush, interrupted, every_start_failed, engines_disagree };
+inline constexpr std::string_view kIdentifyOutcomeNames[] = {
+    "not_run", "completed", "no_max_crush", "interrupted", "every_start_failed", "engines_disagree"};
 template <>
 inline constexpr std::span<const std::string_view> enum_names<IdentifyOutcome>{kIdentifyOutcomeNames};
 
@@ -79,7 +79,8 @@ struct Identification {
 using Progress = std::function<bool(int done, int total)>;
 
 /// Identifies spring and damper from pulses of one structure.
-/// @throws InvalidInput on bad options, a pulse without t_m, or without mass.
+/// A pulse without t_m gives the outcome `no_max_crush`.
+/// @throws InvalidInput on bad options, or a pulse without mass.
 Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& options = {},
                         const Progress& progress = {});
 Identification identify(const Pulse& pulse, const IdentifyOptions& options = {}, const Progress& progress = {});

@@ -71,16 +71,21 @@ void check_pulse(const Pulse& pulse) {
       throw InvalidInput(fmt::format("pulse: time_s[{}] = {} s: times must increase from 0", i, t[i]));
   if (!(pulse.impact_speed_mps > 0.0))
     throw InvalidInput(fmt::format("pulse: impact_speed_mps = {} m/s: must be > 0", pulse.impact_speed_mps));
-  if (std::isnan(pulse.t_m_s))
-    throw InvalidInput(fmt::format(
-        "pulse: has no time of maximum crush: its velocity ({:.4g} m/s at {:.4g} s) never reaches zero; a longer "
-        "trace or the right impact speed is needed",
-        t.empty() ? kUnset : pulse.velocity_mps.back(), t.empty() ? kUnset : t.back()));
+  if (std::isnan(pulse.t_m_s)) throw InvalidInput(no_max_crush_message(pulse));
   if (!(pulse.max_crush_m > 0.0))
     throw InvalidInput(fmt::format("pulse: max_crush_m = {} m: must be > 0", pulse.max_crush_m));
 }
 
 }  // namespace
+
+std::string no_max_crush_message(const Pulse& pulse) {
+  const double v = pulse.velocity_mps.empty() ? kUnset : pulse.velocity_mps.back();
+  const double t = pulse.time_s.empty() ? kUnset : pulse.time_s.back();
+  return fmt::format(
+      "pulse: has no time of maximum crush: its velocity ({:.4g} m/s at {:.4g} s) never reaches zero; a longer "
+      "trace or the right impact speed is needed",
+      v, t);
+}
 
 FitTarget make_target(const Pulse& pulse, double mass_kg, const Setting<Weights>& weights) {
   check_pulse(pulse);

@@ -1,6 +1,7 @@
 #pragma once
 /// What a model is fitted to: samples 0..t_m of a pulse with the weights of their residuals.
 
+#include <string>
 #include <vector>
 
 #include <crashsim/identify.hpp>
@@ -15,6 +16,9 @@ struct FitTarget {
   double accel_size = kUnset, velocity_size = kUnset, displacement_size = kUnset;  ///< scale * max|channel|.
   double factor = kUnset;
 };
+
+/// Why a pulse without t_m cannot be fitted.
+std::string no_max_crush_message(const Pulse& pulse);
 
 /// Samples 0..t_m of a pulse. @throws InvalidInput when its arrays do not fit together, it has no t_m, speed or mass,
 /// or fewer than 10 samples to t_m.

@@ -1,6 +1,7 @@
 #include "optimize/multistart.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -27,7 +28,11 @@ std::uint64_t mix(std::uint64_t z) {  // SplitMix64's output function
   return z ^ (z >> 31);
 }
 
-StartResult run_start(const MultistartProblem& problem, FitObjective& objective, int index) {
+struct Stopped {};  // thrown out of a start that is to end at once
+
+/// One start; as if never begun when `stop` is set meanwhile.
+StartResult run_start(const MultistartProblem& problem, FitObjective& objective, int index,
+                      const std::atomic<bool>& stop) {
   const auto n = objective.size();
   std::vector<double> parameters(n);
   const auto ordinates = [&](std::span<const double> unit) {
@@ -35,6 +40,7 @@ StartResult run_start(const MultistartProblem& problem, FitObjective& objective,
   };
   double smoothing = 0.0;
   const GradientFunction function = [&](std::span<const double> unit, std::span<double> gradient) {
+    if (stop) throw Stopped{};
     ordinates(unit);
     const double value = objective.evaluate(parameters, smoothing, gradient);
     for (std::size_t i = 0; i < n; ++i) gradient[i] *= problem.upper[static_cast<Eigen::Index>(i)];
@@ -85,6 +91,7 @@ std::vector<StartResult> run_starts(const MultistartProblem& problem, const Prog
   const int threads = std::min(thread_count(problem.options.jobs), starts);
   std::vector<StartResult> results(static_cast<std::size_t>(starts));
   std::vector<std::unique_ptr<FitObjective>> objectives(static_cast<std::size_t>(threads));
+  std::atomic<bool> stop{false};
   parallel_for(
       starts, threads,
       [&](int worker, int index) {
@@ -92,9 +99,16 @@ std::vector<StartResult> run_starts(const MultistartProblem& problem, const Prog
         if (!objective)
           objective = std::make_unique<FitObjective>(problem.structure, problem.targets, problem.options.loss,
                                                      problem.options.smooth);
-        results[static_cast<std::size_t>(index)] = run_start(problem, *objective, index);
+        try {
+          results[static_cast<std::size_t>(index)] = run_start(problem, *objective, index, stop);
+        } catch (const Stopped&) {
+          return;
+        }
       },
-      progress);
+      [&](int done, int count) {
+        if (progress && !progress(done, count)) stop = true;
+        return !stop;
+      });
   return results;
 }
 

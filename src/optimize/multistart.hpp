@@ -28,7 +28,8 @@ struct StartResult {
 /// Initial ordinates of a start: the equation-error solution for 0, random ones that depend on seed and index only.
 std::vector<double> initial_ordinates(const MultistartProblem& problem, int index);
 
-/// Fits from every start; the outcome does not depend on the number of threads. Starts never begun have no evaluations.
+/// Fits from every start; the outcome does not depend on the number of threads. Starts that `progress` kept from
+/// ending have no evaluations.
 std::vector<StartResult> run_starts(const MultistartProblem& problem, const Progress& progress);
 
 /// Uniform number in [0, 1) that depends on (seed, stream, index) only.

@@ -45,8 +45,6 @@ const BadInput kBadInputs[] = {
      "IdentifyOptions.mass_kg: not given, and the pulse does not say it: give the test mass"},
     {"negative_mass", [](Pulse&, IdentifyOptions& o) { o.mass_kg = -3.0; },
      "IdentifyOptions.mass_kg = -3 kg: must be > 0"},
-    {"no_t_m", [](Pulse& p, IdentifyOptions&) { p.t_m_s = kUnset; },
-     "pulse: has no time of maximum crush: its velocity ("},
     {"empty_pulse", [](Pulse& p, IdentifyOptions&) { p = {}; }, "pulse: impact_speed_mps = nan m/s: must be > 0"},
     {"no_speed", [](Pulse& p, IdentifyOptions&) { p.impact_speed_mps = kUnset; },
      "pulse: impact_speed_mps = nan m/s: must be > 0"},
@@ -191,6 +189,19 @@ TEST(IdentifyOutcome, EquationErrorThatCannotBeSimulatedSaysSo) {
   const Identification fit = identify(creeping_pulse(), options);
   EXPECT_EQ(fit.outcome, IdentifyOutcome::every_start_failed);
   EXPECT_THAT(fit.message, testing::StartsWith("the equation-error model's simulation did not reach the end"));
+}
+
+TEST(IdentifyOutcome, APulseThatDoesNotStopHasNoModel) {
+  Pulse pulse;
+  pulse.mass_kg = pulse.impact_speed_mps = 10.0;
+  pulse.time_s = {0.0, 0.1};
+  pulse.velocity_mps = {10.0, 9.0};
+  const Identification fit = identify(pulse);
+  EXPECT_EQ(fit.outcome, IdentifyOutcome::no_max_crush);
+  EXPECT_FALSE(fit.usable());
+  EXPECT_EQ(fit.brief_report(),
+            "no_max_crush: pulse: has no time of maximum crush: its velocity (9 m/s at 0.1 s) never reaches zero; a "
+            "longer trace or the right impact speed is needed");
 }
 
 TEST(IdentifyOutcome, NothingIsKnownBeforeTheRun) {

@@ -151,6 +151,21 @@ TEST(Multistart, StoppedKeepsWhatIsFinished) {
   EXPECT_THAT(fit.brief_report(), testing::StartsWith("interrupted: stopped after "));
 }
 
+TEST(Multistart, AStartIsNotFinishedWhenStoppedInsideIt) {
+  constexpr double kFine = 2e-7;  // some 400 000 samples: a start takes seconds, progress is asked every 0.1 s
+  test::Random random(3);
+  const CrushModel car = test::random_crush_model(random, CrushLaw::stiffness);
+  const auto pulse = test::pulse_of(car, car.impact_speed_mps, kFine);
+  ASSERT_TRUE(pulse);
+  IdentifyOptions options;
+  options.starts = 2;
+  options.jobs = 1;
+  const Identification fit = identify(*pulse, options, [](int, int) { return false; });
+  EXPECT_EQ(fit.outcome, IdentifyOutcome::interrupted);
+  EXPECT_EQ(fit.message, "stopped after 0 of 2 starts");
+  EXPECT_TRUE(fit.ordinates.empty());
+}
+
 TEST(Multistart, PassesOnWhatTheProgressThrows) {
   IdentifyOptions options;
   options.starts = 100'000;

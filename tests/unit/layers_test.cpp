@@ -70,6 +70,7 @@ const std::map<std::string, Layer> kLayers = {
     {"vpi", judgement},
 
     {"identify", identification},
+    {"identify_options", identification},
     {"optimize/", identification},
 
     {"batch", pipeline},
