@@ -12,6 +12,8 @@
 #include <crashsim/signal.hpp>
 #include <crashsim/units.hpp>
 
+#include "unit_suffix.hpp"
+
 namespace crashsim {
 namespace {
 
@@ -19,13 +21,7 @@ constexpr std::size_t kFewestSamples = 2;
 constexpr double kOnSample = 1e-6;  // of a step
 
 /// The name without its unit: "accel" of "accel_mps2".
-std::string_view stem(std::string_view name) {
-  for (std::size_t at = name.find('_'); at != std::string_view::npos; at = name.find('_', at + 1)) {
-    const auto unit = find_unit(name.substr(at + 1));
-    if (at > 0 && unit && unit->dimension != Dimension::none) return name.substr(0, at);
-  }
-  return name;
-}
+std::string_view stem(std::string_view name) { return name.substr(0, before_unit_suffix(name)); }
 
 /// The candidate's channel for a reference channel: of the same name, else of the same stem and dimension.
 const Trace* counterpart(const Trace& reference, const TraceSet& candidate) {

@@ -10,6 +10,7 @@
 #include "io/csv_layout.hpp"
 #include "io/reader.hpp"
 #include "text.hpp"
+#include "unit_suffix.hpp"
 
 namespace crashsim::io {
 namespace {
@@ -34,10 +35,8 @@ ColumnHead parse_head(std::string_view cell) {
     if (text.ends_with(close) && at != std::string_view::npos && at > 0)
       return head_with_unit(text.substr(0, at), text.substr(at + 1, text.size() - at - 2));
   }
-  for (std::size_t at = text.find('_'); at != std::string_view::npos; at = text.find('_', at + 1)) {
-    const auto unit = find_unit(text.substr(at + 1));
-    if (at > 0 && unit && unit->dimension != Dimension::none) return head_with_unit(text, text.substr(at + 1));
-  }
+  const std::size_t at = before_unit_suffix(text);
+  if (at != std::string_view::npos) return head_with_unit(text, text.substr(at + 1));
   return {std::string(text), "", std::nullopt};
 }
 

@@ -80,6 +80,21 @@ TEST(Csv, UnitsInBracketsAreNotPartOfTheNameSuffixesAre) {
   EXPECT_EQ(set.traces[3].source_unit, "");
 }
 
+/// Rows of a load-cell wall are called A, B, .. K: row K in newtons is not in kilonewtons.
+TEST(Csv, ALetterBeforeTheUnitIsNoPartOfIt) {
+  const test::TempDir dir;
+  const TraceSet set = read_traces(dir.file(
+      "a.csv", "time_s,row_A_N,row_G_N,row_I_N,row_K_N,push_N_s,k_n_per_m,a_m_s2\n0,1,1,1,1,1,1,1\n1,1,1,1,1,1,1,1\n"));
+  const std::vector<Dimension> expected = {Dimension::force,       Dimension::force,   Dimension::force,
+                                           Dimension::force,       Dimension::impulse, Dimension::stiffness,
+                                           Dimension::acceleration};
+  ASSERT_EQ(set.traces.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(set.traces[i].dimension, expected[i]) << set.traces[i].name;
+    EXPECT_EQ(set.traces[i].values.front(), 1.0) << set.traces[i].name;
+  }
+}
+
 TEST(Csv, OurOwnTablesComeBackBitForBit) {
   const test::TempDir dir;
   const std::vector<double> t = {0.0, 0.1, 0.3}, v = {1.0 / 3.0, -1e-300, std::nan("")};
