@@ -36,6 +36,12 @@ void write(const Json& value, std::size_t indent, std::string& out) {
   out += "\n" + std::string(indent, ' ') + (value.is_object() ? "}" : "]");
 }
 
+/// What went wrong, without the library's own code in brackets.
+std::string reason_of(const Json::exception& error) {
+  const std::string text = error.what();
+  return text.substr(std::min(text.find("] ") + 2, text.size()));
+}
+
 std::vector<double> numbers_of(const Json& list, std::string_view what) {
   std::vector<double> numbers;
   for (const Json& item : list) {
@@ -95,9 +101,9 @@ Json parse_json(std::string_view text, const std::string& path) {
   } catch (const Json::parse_error& error) {
     const std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    std::string reason = error.what();
-    reason = reason.substr(std::min(reason.find("] ") + 2, reason.size()));
-    throw InvalidInput(fmt::format("{}:{}: is not JSON: {}", path, line, reason));
+    throw InvalidInput(fmt::format("{}:{}: is not JSON: {}", path, line, reason_of(error)));
+  } catch (const Json::exception& error) {  // a number beyond what a double holds
+    throw InvalidInput(fmt::format("{}: is not JSON: {}", path, reason_of(error)));
   }
 }
 
