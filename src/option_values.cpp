@@ -1,6 +1,7 @@
 #include <crashsim/option_values.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
 #include <fmt/format.h>
@@ -36,10 +37,12 @@ Dimension dimension_of_field(std::string_view unit) { return unit.empty() ? Dime
 }  // namespace
 
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& valid) {
+  constexpr std::size_t kFewestLetters = 3;  // "mass" of "mass_kg"
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(name.size() / 2, 2) + 1;
   for (const std::string_view candidate : valid) {
-    const std::size_t distance = edit_distance(name, candidate);
+    const bool lacks_unit = name.size() >= kFewestLetters && candidate.find(name) != std::string_view::npos;
+    const std::size_t distance = lacks_unit ? 1 : edit_distance(name, candidate);
     if (distance < best_distance) {
       best = candidate;
       best_distance = distance;
@@ -80,10 +83,17 @@ double to_number(const OptionValue& value, std::string_view unit, std::string_vi
 
 std::int64_t to_integer(const OptionValue& value, std::string_view what) {
   if (const auto* number = std::get_if<std::int64_t>(&value)) return *number;
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    std::int64_t whole = 0;  // every digit counts in a seed
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), whole);
+    if (error == std::errc() && end == text->data() + text->size()) return whole;
+  }
   const double number = to_number(value, "", what);
   constexpr double kLargest = 9007199254740992.0;  // 2^53: beyond it doubles skip whole numbers
-  if (number != std::floor(number) || std::fabs(number) > kLargest)
+  if (number != std::floor(number))
     throw InvalidInput(fmt::format("{} = {}: must be a whole number", what, format_number(number)));
+  if (std::fabs(number) > kLargest)
+    throw InvalidInput(fmt::format("{} = {}: is too large for a whole number", what, format_number(number)));
   return static_cast<std::int64_t>(number);
 }
 
