@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include <crashsim/units.hpp>
+
 #include "json.hpp"
 
 namespace crashsim {
@@ -38,15 +40,22 @@ Metrics metrics_of(const Pulse& pulse) {
 }
 
 Metrics metrics_of(const CrushResponse& response, double mass_kg) {
-  Metrics out =
-      metrics({response.time_s, response.accel_mps2, response.velocity_mps, response.displacement_m}, mass_kg);
+  constexpr std::size_t kFewestSamples = 3;
+  const bool has_ended = response.usable() || response.outcome == CrushOutcome::no_max_crush;
+  Metrics out;
+  if (!has_ended) return out;
+  if (response.time_s.size() >= kFewestSamples)
+    out = metrics({response.time_s, response.accel_mps2, response.velocity_mps, response.displacement_m}, mass_kg);
+  const double speed = response.impact_speed_mps;
   out.t_m_s = response.t_m_s;
+  out.mean_decel_g = speed / response.t_m_s / kStandardGravity;
+  out.energy_j = response.usable() ? 0.5 * mass_kg * speed * speed : kUnset;
   out.max_crush_m = response.max_crush_m;
-  out.centroid_s = response.max_crush_m / response.impact_speed_mps;
+  out.centroid_s = response.max_crush_m / speed;
   if (std::isnan(response.separation_s)) return out;
   out.static_crush_m = response.static_crush_m;
   out.rebound_velocity_mps = response.rebound_velocity_mps;
-  out.restitution = -response.rebound_velocity_mps / response.impact_speed_mps;
+  out.restitution = -response.rebound_velocity_mps / speed;
   return out;
 }
 

@@ -27,7 +27,8 @@ using Summary = std::vector<SummaryItem>;
 
 /// Metrics of a pulse.
 Metrics metrics_of(const Pulse& pulse);
-/// Metrics of a simulation; times, crush and rebound exactly as its events found them.
+/// Metrics of a simulation; times, crush and rebound exactly as its events found them. All unset when it broke off;
+/// fewer than 3 samples leave the others unset.
 Metrics metrics_of(const CrushResponse& response, double mass_kg);
 
 /// `outcome`, then every metric. The outcome of a pulse is "completed" or "no_max_crush".
