@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
-
-#include <fmt/format.h>
 
 #include <crashsim/error.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/units.hpp>
 
+#include "case_sections.hpp"
+
 namespace crashsim {
 namespace {
-
-/// A path in a case file as seen from where the program runs.
-std::string resolved(const Case& study, const std::string& path) {
-  return (std::filesystem::path(study.path).parent_path() / path).lexically_normal().string();
-}
 
 Pulse read_case_pulse(const Case& study, const std::string& file, double impact_speed_mps, CaseResult& out) {
   PulseOptions options = study.pulse;
@@ -95,10 +89,13 @@ CaseResult run_case(const Case& study, const Progress& progress) {
     const std::string path = resolved(study, study.what.model_file);
     out.model = read_model(path);
     out.input_files.push_back(path);
-  } else if (!identify_model(study, progress, out)) {
+    if (!std::isnan(study.what.mass_kg)) out.model.mass_kg = study.what.mass_kg;
+    out.model.unloading.bilateral = out.model.unloading.bilateral || study.what.bilateral;
+  } else if (identify_model(study, progress, out)) {
+    out.model.unloading = {study.what.unloading, study.what.bilateral};
+  } else {
     return out;
   }
-  out.model.unloading = {study.what.unloading, study.what.bilateral};
 
   double speed = study.what.impact_speed_mps;
   if (std::isnan(speed) && out.pulse) speed = out.pulse->impact_speed_mps;
@@ -107,8 +104,7 @@ CaseResult run_case(const Case& study, const Progress& progress) {
     options.end_time_s = out.pulse->time_s.back();
   out.response = simulate(out.model, options);
   for (const double predicted : study.what.speeds_mps)
-    out.predictions.push_back(
-        {fmt::format("{:.4g}kmh", 3.6 * predicted), simulate(out.model, at_speed(study, predicted))});
+    out.predictions.push_back({prediction_name(predicted), simulate(out.model, at_speed(study, predicted))});
   if (out.pulse && !out.response.time_s.empty()) compare_with_test(study, out);
   return out;
 }

@@ -1,6 +1,8 @@
 /// Case files: read from TOML or a record, and written as one.
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,7 +58,21 @@ void set(Case& study, const ConfigEntry& entry) {
   if (!known) refuse_key(entry, case_keys());
 }
 
+void check_speeds(const Case& study) {
+  std::map<std::string, double> seen;
+  for (std::size_t i = 0; i < study.what.speeds_mps.size(); ++i) {
+    const double speed = study.what.speeds_mps[i];
+    const std::string what = fmt::format("{}: [predict] speeds[{}]", study.path, i);
+    if (!detail::in_range(speed, positive())) detail::throw_out_of_range(what, speed, "m/s", positive());
+    const auto [other, is_new] = seen.emplace(prediction_name(speed), speed);
+    if (!is_new)
+      throw InvalidInput(fmt::format("{} = {} m/s: is the prediction_{} of {} m/s, too: leave one out", what,
+                                     format_number(speed), other->first, format_number(other->second)));
+  }
+}
+
 void check(const Case& study) {
+  check_speeds(study);
   if (study.what.pulse_file.empty() && study.what.model_file.empty())
     throw InvalidInput(
         fmt::format("{}: has neither [pulse] file nor [crush] model: name a trace to identify a model from, or a model "
@@ -68,6 +84,20 @@ void check(const Case& study) {
 }
 
 }  // namespace
+
+std::string resolved(const Case& study, const std::string& path) {
+  return (std::filesystem::path(study.path).parent_path() / path).lexically_normal().string();
+}
+
+std::string prediction_name(double speed_mps) { return fmt::format("{:.4g}kmh", 3.6 * speed_mps); }
+
+std::vector<std::string> case_inputs(const Case& study) {
+  std::vector<std::string> paths = {study.path};
+  for (const std::string& file : {study.what.pulse_file, study.what.model_file})
+    if (!file.empty()) paths.push_back(resolved(study, file));
+  for (const std::string& file : study.what.further_pulses) paths.push_back(resolved(study, file));
+  return paths;
+}
 
 std::vector<FileKey> case_keys() {
   Case defaults;

@@ -6,6 +6,8 @@
 #include <crashsim/model_io.hpp>
 #include <crashsim/outputs.hpp>
 
+#include "case_sections.hpp"
+
 namespace crashsim {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr const char* kComparison = "comparison.json";
 constexpr const char* kSummary = "summary.json";
 constexpr const char* kRecord = "case.lock.json";
 
-std::string prediction_file(double speed_mps) { return fmt::format("prediction_{:.4g}kmh.csv", 3.6 * speed_mps); }
+std::string prediction_file(double speed_mps) { return fmt::format("prediction_{}.csv", prediction_name(speed_mps)); }
 
 /// Overall ratings of one comparison, channel by channel.
 Summary ratings_of(const Comparison& comparison) {

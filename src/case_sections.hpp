@@ -11,6 +11,12 @@
 
 namespace crashsim {
 
+/// A path in a case file as seen from where the program runs.
+std::string resolved(const Case& study, const std::string& path);
+
+/// What a prediction is called: "40kmh".
+std::string prediction_name(double speed_mps);
+
 /// A table of the case file that holds fields of one options struct.
 template <class S>
 struct CaseSection {

@@ -24,7 +24,7 @@ struct CaseOptions {
   double mass_kg = kUnset;                           ///< [vehicle] mass; unset: the pulse file's.
   double impact_speed_mps = kUnset;                  ///< [impact] speed; unset: the pulse file's.
   std::string pulse_file;                            ///< [pulse] file; "" when a model is only simulated.
-  std::string model_file;                            ///< [crush] model: used as it is, nothing is identified.
+  std::string model_file;                            ///< [crush] model: used, nothing is identified.
   UnloadingKind unloading = UnloadingKind::elastic;  ///< [crush] unloading
   bool bilateral = false;                            ///< [crush] bilateral
   std::vector<std::string> further_pulses;           ///< [identify] pulses: further tests of the same structure.
@@ -34,8 +34,9 @@ struct CaseOptions {
 };
 inline constexpr std::array<Field<CaseOptions>, 9> kCaseFields = {{
     {"title", "title", "", "what the study is about", &CaseOptions::title},
-    {"mass_kg", "vehicle.mass", "kg", "test mass; default: the pulse file's", &CaseOptions::mass_kg, positive()},
-    {"impact_speed_mps", "impact.speed", "m/s", "impact speed; default: the pulse file's",
+    {"mass_kg", "vehicle.mass", "kg", "test mass; default: the pulse file's or the model's", &CaseOptions::mass_kg,
+     positive()},
+    {"impact_speed_mps", "impact.speed", "m/s", "impact speed; default: the pulse file's or the model's",
      &CaseOptions::impact_speed_mps, positive()},
     {"pulse_file", "pulse.file", "", "trace or pulse.csv of the test", &CaseOptions::pulse_file},
     {"model_file", "crush.model", "", "model.json to use instead of identifying one", &CaseOptions::model_file},
@@ -99,6 +100,9 @@ std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& res
 struct CaseFile {
   std::string name, text;
 };
+
+/// The files that a case names, and its own: what it reads.
+std::vector<std::string> case_inputs(const Case& study);
 
 /// Names of the files that a case will write, in the order of case_files().
 std::vector<std::string> case_file_names(const Case& study);

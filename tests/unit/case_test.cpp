@@ -1,0 +1,240 @@
+#include <crashsim/case.hpp>
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <crashsim/error.hpp>
+#include <crashsim/files.hpp>
+#include <crashsim/model_io.hpp>
+#include <crashsim/outputs.hpp>
+
+#include "support/temp_dir.hpp"
+
+namespace crashsim {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::ThrowsMessage;
+
+const std::string kData = std::string(CRASHSIM_SOURCE_DIR) + "/data";
+constexpr const char* kPulseOnly = "[pulse]\nfile = \"t.csv\"\n";
+
+constexpr const char* kFullCase = R"(title = "a study"
+[vehicle]
+mass = "1.2 t"
+[impact]
+speed = "56 km/h"
+[pulse]
+file = "t.csv"
+channels = [13, "RIGHT*"]
+cfc = 180
+bias = [0.0, 0.001]
+t0 = "5ms"
+[crush]
+law = "force"
+knots = [0, 0.2, 0.7]
+bilateral = true
+[identify]
+starts = 3
+seed = 4611686018427387905
+loss = "huber"
+weights = "1, 2, 0.5"
+pulses = ["u.csv", "../v.csv"]
+[simulate]
+dt = "1ms"
+integrator = "taylor"
+[compare]
+channel = "accel*"
+end = 0.1
+[predict]
+speeds = ["40 km/h", 12]
+)";
+
+/// Some value of the kind that a key's default has, other than the default.
+std::pair<std::string, OptionValue> other_value(const ConfigEntry& entry, const FieldDescription& about) {
+  if (about.choices.ends_with("or numbers")) return {"[0.25, 0.5]", std::vector<double>{0.25, 0.5}};
+  if (!about.choices.empty()) {
+    const std::size_t comma = about.choices.rfind(' ');
+    const std::string last = comma == std::string::npos ? about.choices : about.choices.substr(comma + 1);
+    return {"\"" + last + "\"", last};
+  }
+  if (std::holds_alternative<bool>(entry.value)) return {"true", true};
+  if (std::holds_alternative<std::int64_t>(entry.value)) return {"3", std::int64_t{3}};
+  if (std::holds_alternative<std::string>(entry.value)) return {"\"some.csv\"", std::string("some.csv")};
+  if (std::holds_alternative<std::vector<double>>(entry.value)) return {"[1.5, 2.5]", std::vector<double>{1.5, 2.5}};
+  if (std::holds_alternative<std::vector<std::string>>(entry.value))
+    return {"[\"a\", \"b\"]", std::vector<std::string>{"a", "b"}};
+  return {"0.005", 0.005};
+}
+
+const ConfigEntry& entry_of(const std::vector<ConfigEntry>& entries, const FileKey& key) {
+  for (const ConfigEntry& entry : entries)
+    if (entry.section == key.section && entry.key == key.key) return entry;
+  throw std::runtime_error("no entry " + key.section + "." + key.key);
+}
+
+TEST(Case, EveryKeyCanBeSetAndIsRecorded) {
+  const test::TempDir dir;
+  const std::vector<ConfigEntry> defaults = entries_of(Case());
+  const std::vector<FileKey> keys = case_keys();
+  EXPECT_EQ(keys.size(), defaults.size());
+  for (const FileKey& key : keys) {
+    const auto [text, value] = other_value(entry_of(defaults, key), key.about);
+    const std::string line = key.key + " = " + text + "\n";
+    std::string toml = key.section.empty() ? line : fmt::format("[{}]\n{}", key.section, line);
+    if (key.section == "pulse" && key.key != "file") toml += "file = \"t.csv\"\n";
+    if (key.section != "pulse") toml += kPulseOnly;
+    const Case study = read_case(dir.file("case.toml", toml));
+    EXPECT_EQ(entry_of(entries_of(study), key).value, value) << toml;
+  }
+}
+
+TEST(Case, KeysAreNamedByFlagOrField) {
+  const test::TempDir dir;
+  const Case study =
+      read_case(dir.file("case.toml", std::string(kPulseOnly) + "channels = [\"a\"]\n[crush]\nspring_knots = 3\n"
+                                                                "[simulate]\nend_time_s = 0.3\n"));
+  EXPECT_THAT(study.pulse.channels, ElementsAre("a"));
+  EXPECT_EQ(study.identify.spring_knots, 3);
+  EXPECT_EQ(study.simulation.end_time_s, 0.3);
+}
+
+TEST(Case, OptionsGoWhereTheyBelong) {
+  const test::TempDir dir;
+  const Case study = read_case(dir.file("case.toml", kFullCase));
+  EXPECT_EQ(study.what.title, "a study");
+  EXPECT_EQ(study.what.mass_kg, 1200.0);
+  EXPECT_DOUBLE_EQ(study.what.impact_speed_mps, 56.0 / 3.6);
+  EXPECT_THAT(study.pulse.channels, ElementsAre("13", "RIGHT*"));
+  EXPECT_EQ(study.pulse.t0, (Setting<TimeZero>{TimeZero::given, {0.005}}));
+  EXPECT_EQ(study.identify.law, CrushLaw::force);
+  EXPECT_EQ(study.identify.seed, 4611686018427387905u);
+  EXPECT_EQ(study.identify.weights, (Setting<Weights>{Weights::given, {1.0, 2.0, 0.5}}));
+  EXPECT_THAT(study.what.further_pulses, ElementsAre("u.csv", "../v.csv"));
+  EXPECT_TRUE(study.what.bilateral);
+  EXPECT_EQ(study.simulation.dt_s, 0.001);
+  EXPECT_EQ(study.comparison.end_s, 0.1);
+  EXPECT_THAT(study.what.speeds_mps, ElementsAre(testing::DoubleEq(40.0 / 3.6), 12.0));
+}
+
+TEST(Case, ComesBackFromItsRecord) {
+  const test::TempDir dir;
+  const Case study = read_case(dir.file("case.toml", kFullCase));
+  const std::vector<ConfigEntry> entries = entries_of(study);
+  const Case back = read_case(dir.file("case.lock.json", format_record(make_record("run", {study.path}, entries, {}))));
+  EXPECT_EQ(back.path, study.path);
+  const std::vector<ConfigEntry> again = entries_of(back);
+  ASSERT_EQ(again.size(), entries.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) EXPECT_EQ(again[i].value, entries[i].value) << entries[i].key;
+}
+
+TEST(Case, TheRecordOfAnotherCommandIsNoCase) {
+  const test::TempDir dir;
+  const std::string path = dir.file("r.json", format_record(make_record("pulse", {"t.csv"}, {}, {})));
+  EXPECT_THAT([&] { static_cast<void>(read_case(path)); },
+              ThrowsMessage<InvalidInput>(HasSubstr("r.json: is the record of 'crashsim pulse', not of a case")));
+}
+
+TEST(Case, NamesItsInputsAndFiles) {
+  const test::TempDir dir;
+  const Case fit = read_case(dir.file("case.toml", kFullCase));
+  EXPECT_THAT(case_inputs(fit), ElementsAre(dir.path("case.toml"), dir.path("t.csv"), dir.path("u.csv"),
+                                            std::filesystem::path(dir.path("../v.csv")).lexically_normal().string()));
+  EXPECT_THAT(case_file_names(fit),
+              ElementsAre("pulse.csv", "model.json", "response.csv", "prediction_40kmh.csv", "prediction_43.2kmh.csv",
+                          "comparison.json", "summary.json", "case.lock.json"));
+  const Case given = read_case(dir.file("given.toml", "[crush]\nmodel = \"m.json\"\n"));
+  EXPECT_THAT(case_inputs(given), ElementsAre(dir.path("given.toml"), dir.path("m.json")));
+  EXPECT_THAT(case_file_names(given), ElementsAre("model.json", "response.csv", "summary.json", "case.lock.json"));
+}
+
+TEST(RunCase, TheFiniteElementCarGivesAUsableModel) {
+  Case study = read_case(kData + "/fe-car/case.toml");
+  study.identify.starts = 2;
+  study.what.speeds_mps = {16.0};
+  const CaseResult result = run_case(study);
+  EXPECT_TRUE(result.usable());
+  ASSERT_TRUE(result.pulse && result.identification);
+  EXPECT_EQ(result.response.impact_speed_mps, 15.64);
+  EXPECT_EQ(result.response.time_s.back(), result.pulse->time_s.back());
+  EXPECT_THAT(result.predictions, SizeIs(1));
+  EXPECT_THAT(result.comparisons, SizeIs(2));
+  EXPECT_EQ(result.comparisons[0].first, "to_max_crush");
+  EXPECT_LE(result.comparisons[0].second.end_s, result.pulse->t_m_s);
+  EXPECT_THAT(result.input_files, ElementsAre(kData + "/fe-car/C56.csv"));
+  std::vector<std::string> names;
+  for (const CaseFile& file : case_files(study, result)) names.push_back(file.name);
+  EXPECT_EQ(names, case_file_names(study));
+}
+
+TEST(RunCase, AModelAloneIsSimulated) {
+  const test::TempDir dir;
+  std::filesystem::create_directory(dir.path("sub"));
+  dir.file("m.json", read_file(kData + "/syn-a/model.json"));
+  const Case study =
+      read_case(dir.file("sub/case.toml", "[impact]\nspeed = 10\n[crush]\nmodel = \"../m.json\"\nbilateral = true\n"));
+  const CaseResult result = run_case(study);
+  EXPECT_TRUE(result.usable());
+  EXPECT_FALSE(result.pulse || result.identification);
+  EXPECT_THAT(result.comparisons, IsEmpty());
+  EXPECT_EQ(result.response.impact_speed_mps, 10.0);
+  EXPECT_TRUE(result.model.unloading.bilateral);
+  EXPECT_THAT(result.input_files, ElementsAre(dir.path("m.json")));
+  const auto summary = nlohmann::json::parse(format_summary(summarize(result), summary_parts(result)));
+  EXPECT_EQ(summary["outcome"], "completed");
+  EXPECT_EQ(summary["impact_speed_mps"], 10.0);
+}
+
+TEST(RunCase, AModelKeepsWhatTheCaseDoesNotSay) {
+  const test::TempDir dir;
+  CrushModel model;
+  model.mass_kg = 1500.0;
+  model.impact_speed_mps = 15.0;
+  model.spring = {{0.0}, {1e6}};
+  model.unloading.bilateral = true;
+  dir.file("m.json", format_model(model));
+  const std::string crush = "[crush]\nmodel = \"m.json\"\n";
+  const CaseResult as_it_is = run_case(read_case(dir.file("a.toml", crush)));
+  EXPECT_TRUE(as_it_is.model.unloading.bilateral);
+  EXPECT_EQ(as_it_is.model.mass_kg, 1500.0);
+  EXPECT_EQ(as_it_is.response.impact_speed_mps, 15.0);
+  const CaseResult heavier = run_case(read_case(dir.file("b.toml", crush + "[vehicle]\nmass = \"2 t\"\n")));
+  EXPECT_EQ(heavier.model.mass_kg, 2000.0);
+  EXPECT_GT(heavier.response.max_crush_m, as_it_is.response.max_crush_m);
+}
+
+TEST(RunCase, AModelIsComparedWithATest) {
+  const test::TempDir dir;
+  const Case study = read_case(dir.file(
+      "case.toml", fmt::format("[pulse]\nfile = \"{0}/fe-car/C56.csv\"\nchannels = [\"LEFT_REAR_VX\"]\n"
+                               "[crush]\nmodel = \"{0}/syn-a/model.json\"\n[compare]\nchannel = [\"velocity*\"]\n",
+                               kData)));
+  const CaseResult result = run_case(study);
+  EXPECT_FALSE(result.identification.has_value());
+  ASSERT_THAT(result.comparisons, SizeIs(2));
+  ASSERT_THAT(result.comparisons[1].second.channels, SizeIs(1));
+  EXPECT_EQ(result.comparisons[1].second.channels[0].name, "velocity_mps");
+}
+
+TEST(RunCase, CanBeStopped) {
+  Case study = read_case(kData + "/fe-car/case.toml");
+  study.identify.starts = 100000;
+  study.identify.jobs = 1;
+  const CaseResult result = run_case(study, [](int done, int) { return done < 1; });
+  ASSERT_TRUE(result.identification.has_value());
+  EXPECT_EQ(result.identification->outcome, IdentifyOutcome::interrupted);
+  EXPECT_FALSE(result.usable());
+}
+
+}  // namespace
+}  // namespace crashsim
