@@ -117,7 +117,7 @@ void Command::check_output(const std::vector<std::string>& inputs) const {
   if (output_.empty()) {
     if (json_) return;
     throw InvalidInput(
-        fmt::format("crashsim {}: where to? Name the output with -o FILE ('-' for standard output), or "
+        fmt::format("{}: where to? Name the output with -o FILE ('-' for standard output), or "
                     "ask for the summary alone with --json",
                     app_.get_name()));
   }
@@ -126,10 +126,11 @@ void Command::check_output(const std::vector<std::string>& inputs) const {
 }
 
 void Command::check_writable(const std::string& path, const std::vector<std::string>& inputs) const {
-  for (const std::string& input : inputs)
-    if (is_same_file(path, input))
-      throw InvalidInput(fmt::format("{}: is an input: choose another name for the output", path));
+  const auto is_output = [&](const std::string& input) { return is_same_file(path, input); };
+  if (std::any_of(inputs.begin(), inputs.end(), is_output) || is_output(config_))
+    throw InvalidInput(fmt::format("{}: is an input: choose another name for the output", path));
   std::error_code ignored;
+  if (fs::is_directory(path, ignored)) throw InvalidInput(fmt::format("{}: is a folder: name a file to write", path));
   const fs::path folder = fs::path(path).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
     throw InvalidInput(fmt::format("{}: there is no folder {}: make it first", path, folder.string()));

@@ -61,9 +61,10 @@ class Command {
     (bound.flags.set_from_command_line(bound.values), ...);
   }
 
-  /// Refuses, before any work is done, an output that exists, is an input, or is missing while nothing else is asked.
+  /// Refuses, before any work is done, an output that exists, is an input, or is missing while nothing else is asked;
+  /// again when reading has told of further inputs (the channel files of a header).
   void check_output(const std::vector<std::string>& inputs) const;
-  /// Refuses to write a file that exists (without --force) or is one of the inputs.
+  /// Refuses to write a folder, a file that exists (without --force), one of the inputs or the configuration.
   void check_writable(const std::string& path, const std::vector<std::string>& inputs) const;
   /// Writes the output, if one was asked for.
   void write(const std::string& text) const;

@@ -12,7 +12,8 @@ class CompareCommand : public Command {
  public:
   explicit CompareCommand(CLI::App& parent)
       : Command(parent, "compare", "Compare two files of curves: errors and ISO/TS 18571 ratings",
-                "crashsim compare pulse.csv response.csv --end 90ms -o rating.json") {
+                "crashsim run data/fe-car/case.toml -o fe-car\n"
+                "  crashsim compare fe-car/pulse.csv fe-car/response.csv --end 90ms -o rating.json") {
     app().add_option("reference", reference_, "the test: pulse.csv or any CSV")->required()->type_name("A");
     app().add_option("candidate", candidate_, "the model: response.csv or any CSV")->required()->type_name("B");
     options_.flags.add_to(app(), "Options");
@@ -22,10 +23,14 @@ class CompareCommand : public Command {
 
   int run() override {
     resolve(options_);
-    const std::vector<std::string> inputs = {reference_, candidate_};
+    if (!output().empty()) check_output({reference_, candidate_});
+    const TraceSet reference = read_traces(reference_), candidate = read_traces(candidate_);
+    std::vector<std::string> inputs = reference.input_files;
+    inputs.insert(inputs.end(), candidate.input_files.begin(), candidate.input_files.end());
     if (!output().empty()) check_output(inputs);
-    const Comparison comparison = crashsim::compare(read_traces(reference_), read_traces(candidate_), options_.values);
-    const std::string text = format_comparison(comparison, record(inputs, entries_of(options_.values, ""), inputs));
+    const Comparison comparison = crashsim::compare(reference, candidate, options_.values);
+    const std::string text =
+        format_comparison(comparison, record({reference_, candidate_}, entries_of(options_.values, ""), inputs));
     write(text);
     say(fmt::format("{} against {}", candidate_, reference_));
     for (const std::string& line : table_of(comparison)) say(line);

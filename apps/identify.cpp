@@ -35,6 +35,7 @@ class IdentifyCommand : public Command {
       pulses.push_back(read_pulse(file, read));
       inputs.insert(inputs.end(), pulses.back().input_files.begin(), pulses.back().input_files.end());
     }
+    check_output(inputs);
     const Identification fit = identify_watched(pulses);
     const Summary summary = summarize(fit);
     if (!fit.ordinates.empty()) write(format_model(fit.model, &fit, &unwritten_record(inputs)));

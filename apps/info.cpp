@@ -43,6 +43,9 @@ Json to_json(const TraceFileInfo& info) {
   return json;
 }
 
+/// Headers of real files are not always UTF-8.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 std::string range_of(double low, double high) {
   return std::isnan(low) ? "-" : fmt::format("{:.4g} .. {:.4g}", low, high);
 }
@@ -96,7 +99,7 @@ class InfoCommand : public Command {
       else
         write_output("-", table_of(info), false);
     }
-    if (as_json_) write_output("-", (all.size() == 1 ? all.front() : all).dump(2) + "\n", false);
+    if (as_json_) write_output("-", text_of(all.size() == 1 ? all.front() : all), false);
     return kDone;
   }
 

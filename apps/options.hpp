@@ -19,10 +19,10 @@ namespace crashsim::cli {
 template <class S>
 class Flags {
  public:
-  /// @param left_out flags that this subcommand does not offer.
-  void add_to(CLI::App& app, const std::string& group, std::initializer_list<std::string_view> left_out = {}) {
+  /// @param only flags that this subcommand offers; empty: all.
+  void add_to(CLI::App& app, const std::string& group, std::initializer_list<std::string_view> only = {}) {
     for (const Field<S>& field : fields<S>) {
-      if (std::find(left_out.begin(), left_out.end(), field.flag) != left_out.end()) continue;
+      if (only.size() > 0 && std::find(only.begin(), only.end(), field.flag) == only.end()) continue;
       offered_.push_back(&field);
       CLI::Option* option = nullptr;
       const std::string flag = "--" + std::string(field.flag);
@@ -32,7 +32,7 @@ class Flags {
         option = app.add_flag(flag, description)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
       } else {
         option = app.add_option(flag, given_[&field], described(field));
-        option->expected(1)->type_name(value_name(field));
+        option->expected(1)->allow_extra_args(false)->type_name(value_name(field));  // files follow, not more values
         option->multi_option_policy(is_list ? CLI::MultiOptionPolicy::TakeAll : CLI::MultiOptionPolicy::TakeLast);
       }
       option->group(group);

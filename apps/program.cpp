@@ -13,7 +13,7 @@ namespace crashsim::cli {
 namespace {
 
 int complain(const std::string& message, int exit_code) {
-  fmt::print(stderr, "crashsim: {}\n", message);
+  std::fputs(("crashsim: " + message + "\n").c_str(), stderr);  // never throws, whatever stderr is
   return exit_code;
 }
 
@@ -27,13 +27,13 @@ std::vector<std::unique_ptr<Command>> make_commands(CLI::App& app) {
 /// Names of flags or subcommands that an unknown argument may have meant.
 std::string unknown_argument(const CLI::App& app, const std::string& argument) {
   std::vector<std::string> spellings;
-  std::string kind = "argument", where = "crashsim";
+  std::string kind = "argument", where;
   if (app.get_subcommands().empty() && !argument.starts_with('-')) {
     kind = "subcommand";
     for (const CLI::App* command : app.get_subcommands(nullptr)) spellings.push_back(command->get_name());
   } else {
     const CLI::App& scope = app.get_subcommands().empty() ? app : *app.get_subcommands().front();
-    if (&scope != &app) where += " " + scope.get_name();
+    if (&scope != &app) where = scope.get_name();
     if (argument.starts_with('-')) kind = "option";
     for (const CLI::Option* option : scope.get_options())
       for (const std::string& name : option->get_lnames()) spellings.push_back("--" + name);
@@ -41,7 +41,15 @@ std::string unknown_argument(const CLI::App& app, const std::string& argument) {
   const std::string name = argument.substr(0, argument.find('='));
   const std::string_view nearest = nearest_name(name, {spellings.begin(), spellings.end()});
   const std::string hint = nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest);
-  return fmt::format("unknown {} '{}'{} (see {} --help)", kind, name, hint, where);
+  return fmt::format("{}unknown {} '{}'{} (see crashsim {}{}--help)", where.empty() ? "" : where + ": ", kind, name,
+                     hint, where, where.empty() ? "" : " ");
+}
+
+/// What the parser says, put in our words where it is hard to read: "--cfc: 1 required Hz missing".
+std::string words_of(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const bool lacks_value = dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && text.ends_with(" missing");
+  return lacks_value ? text.substr(0, text.find(':')) + ": needs a value" : text;
 }
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -51,7 +59,7 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (!rest.empty()) return complain(unknown_argument(app, rest.front()), kUserCanFix);
   }
   const std::string where = scope == &app ? "" : scope->get_name() + ": ";
-  return complain(fmt::format("{}{} (see crashsim {}{}--help)", where, error.what(),
+  return complain(fmt::format("{}{} (see crashsim {}{}--help)", where, words_of(error),
                               scope == &app ? "" : scope->get_name(), scope == &app ? "" : " "),
                   kUserCanFix);
 }

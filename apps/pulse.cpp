@@ -22,6 +22,7 @@ class PulseCommand : public Command {
     resolve(options_);
     check_output({file_});
     const Pulse pulse = read_pulse(file_, options_.values);
+    check_output(pulse.input_files);
     const Summary summary = summarize(pulse);
     write(format_pulse(pulse, record({file_}, entries_of(options_.values, ""), pulse.input_files)));
     report(pulse, summary);

@@ -20,7 +20,7 @@ std::vector<std::string> command_line_of(const Record& record) {
   for (const ConfigEntry& entry : record.options) {
     const std::string flag = "--" + entry.key;
     if (const auto* texts = std::get_if<std::vector<std::string>>(&entry.value)) {
-      for (const std::string& text : *texts) line.insert(line.end(), {flag, text});
+      for (const std::string& text : *texts) line.push_back(flag + "=" + text);
     } else if (const auto* is_on = std::get_if<bool>(&entry.value)) {
       if (*is_on) line.push_back(flag);
     } else if (const std::string text = text_of(entry.value); !text.empty()) {
@@ -41,20 +41,24 @@ class RunCommand : public Command {
         .add_option("case", file_, "case.toml; or a case.lock.json or other output, to make it again")
         ->required()
         ->type_name("CASE");
-    app().add_option("--jobs", jobs_, "threads; 0: all cores")->type_name("N");
+    options_.flags.add_to(app(), "Options", {"jobs"});
     add_output("DIR", "folder to write; the file, when the record of another command is run again");
     add_reporting();
   }
 
   int run() override {
-    resolve();
-    if (!fs::path(file_).extension().string().ends_with("toml")) {
+    const std::string extension = fs::path(file_).extension().string();
+    if (extension != ".toml") {
       const auto record = find_record(file_);
       if (record && record->command != "run") return run_again(*record);
+      if (!record && (extension == ".json" || extension == ".csv"))
+        throw InvalidInput(fmt::format(
+            "{}: holds no record of what made it: give a case (.toml), or an output that crashsim wrote", file_));
     }
     Case study = read_case(file_);
-    if (app().count("--jobs") > 0)
-      set_option(study.identify, find_field<IdentifyOptions>("jobs", "--jobs"), jobs_, "--jobs");
+    options_.values = study.identify;
+    resolve(options_);
+    study.identify = options_.values;
     check_outputs(study);
     const CaseResult result = run_watched(study);
     write_files(case_files(study, result));
@@ -64,7 +68,8 @@ class RunCommand : public Command {
   }
 
  private:
-  int run_again(const Record& record) const {
+  int run_again(const Record& record) {
+    resolve(options_);
     verify_inputs(record);
     if (record.version != kVersion)
       say(fmt::format("  warning: {} was made by crashsim {}, this is {}", file_, record.version, kVersion));
@@ -74,6 +79,7 @@ class RunCommand : public Command {
     if (force()) shared.emplace_back("--force");
     if (json()) shared.emplace_back("--json");
     if (quiet()) shared.emplace_back("--quiet");
+    if (record.command == "identify") shared.push_back(fmt::format("--jobs={}", options_.values.jobs));
     line.insert(line.begin() + 1, shared.begin(), shared.end());
     return run_program(line);
   }
@@ -84,7 +90,9 @@ class RunCommand : public Command {
     if (fs::exists(output()) && !fs::is_directory(output()))
       throw InvalidInput(fmt::format("{}: is a file: name a folder for the outputs of the case", output()));
     if (!fs::exists(output())) return;
-    for (const std::string& name : case_file_names(study)) check_writable(path_of(name), {file_});
+    std::vector<std::string> inputs = case_inputs(study);
+    inputs.push_back(file_);
+    for (const std::string& name : case_file_names(study)) check_writable(path_of(name), inputs);
   }
 
   CaseResult run_watched(const Case& study) const {
@@ -148,7 +156,7 @@ class RunCommand : public Command {
   [[nodiscard]] std::string path_of(const std::string& name) const { return (fs::path(output()) / name).string(); }
 
   std::string file_;
-  std::string jobs_;
+  Bound<IdentifyOptions> options_;
 };
 
 }  // namespace

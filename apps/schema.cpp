@@ -67,7 +67,7 @@ class SchemaCommand : public Command {
     if (kind_ == "case") return case_keys();
     if (kind_ == "model") return model_keys();
     if (kind_ == "vehicle") return vehicle_keys();
-    detail::throw_unknown_name("crashsim schema", kind_, {"case", "model", "vehicle"});
+    detail::throw_unknown_name("schema", kind_, {"case", "model", "vehicle"});
   }
 
   std::string kind_;
