@@ -92,6 +92,7 @@ CaseResult run_case(const Case& study, const Progress& progress) {
     if (!std::isnan(study.what.mass_kg)) out.model.mass_kg = study.what.mass_kg;
     out.model.unloading.bilateral = out.model.unloading.bilateral || study.what.bilateral;
   } else if (identify_model(study, progress, out)) {
+    out.model.extrapolation = study.what.extrapolation;
     out.model.unloading = {study.what.unloading, study.what.bilateral};
   } else {
     return out;

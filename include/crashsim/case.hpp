@@ -20,19 +20,20 @@ namespace crashsim {
 
 /// What a case says of vehicle, impact, pulse file and model beside the options of the steps.
 struct CaseOptions {
-  std::string title;                                 ///< Of the study, for people.
-  double mass_kg = kUnset;                           ///< [vehicle] mass; unset: the pulse file's.
-  double impact_speed_mps = kUnset;                  ///< [impact] speed; unset: the pulse file's.
-  std::string pulse_file;                            ///< [pulse] file; "" when a model is only simulated.
-  std::string model_file;                            ///< [crush] model: used, nothing is identified.
-  UnloadingKind unloading = UnloadingKind::elastic;  ///< [crush] unloading
-  bool bilateral = false;                            ///< [crush] bilateral
-  std::vector<std::string> further_pulses;           ///< [identify] pulses: further tests of the same structure.
-  std::vector<double> speeds_mps;                    ///< [predict] speeds
+  std::string title;                                      ///< Of the study, for people.
+  double mass_kg = kUnset;                                ///< [vehicle] mass; unset: the pulse file's.
+  double impact_speed_mps = kUnset;                       ///< [impact] speed; unset: the pulse file's.
+  std::string pulse_file;                                 ///< [pulse] file; "" when a model is only simulated.
+  std::string model_file;                                 ///< [crush] model: used, nothing is identified.
+  Extrapolation extrapolation = Extrapolation::constant;  ///< [crush] extrapolation, of a model identified here
+  UnloadingKind unloading = UnloadingKind::elastic;       ///< [crush] unloading
+  bool bilateral = false;                                 ///< [crush] bilateral
+  std::vector<std::string> further_pulses;                ///< [identify] pulses: further tests of the same structure.
+  std::vector<double> speeds_mps;                         ///< [predict] speeds
 
   bool operator==(const CaseOptions&) const = default;
 };
-inline constexpr std::array<Field<CaseOptions>, 9> kCaseFields = {{
+inline constexpr std::array<Field<CaseOptions>, 10> kCaseFields = {{
     {"title", "title", "", "what the study is about", &CaseOptions::title},
     {"mass_kg", "vehicle.mass", "kg", "test mass; default: the pulse file's or the model's", &CaseOptions::mass_kg,
      positive()},
@@ -40,6 +41,9 @@ inline constexpr std::array<Field<CaseOptions>, 9> kCaseFields = {{
      &CaseOptions::impact_speed_mps, positive()},
     {"pulse_file", "pulse.file", "", "trace or pulse.csv of the test", &CaseOptions::pulse_file},
     {"model_file", "crush.model", "", "model.json to use instead of identifying one", &CaseOptions::model_file},
+    {"extrapolation", "crush.extrapolation", "",
+     "what a curve does beyond its last knot; while it is identified the last ordinate is held",
+     choice<&CaseOptions::extrapolation>()},
     {"unloading", "crush.unloading", "", "behaviour after maximum crush", choice<&CaseOptions::unloading>()},
     {"bilateral", "crush.bilateral", "", "the barrier pulls, too: contact is never lost", &CaseOptions::bilateral},
     {"further_pulses", "identify.pulses", "", "further tests of the same structure, fitted together",

@@ -14,6 +14,7 @@
 #include <crashsim/files.hpp>
 
 #include "support/program.hpp"
+#include "support/source_dir.hpp"
 #include "support/temp_dir.hpp"
 
 namespace crashsim::test {
@@ -23,7 +24,7 @@ inline constexpr int kDone = 0, kUserCanFix = 2, kNumbersFailed = 3, kMachineFai
 class Workspace {
  public:
   Workspace() {
-    std::filesystem::create_directory_symlink(std::string(CRASHSIM_SOURCE_DIR) + "/data", dir_.path("data"));
+    std::filesystem::create_directory_symlink(std::string(test::source_dir()) + "/data", dir_.path("data"));
   }
 
   /// Runs `crashsim` in the folder.

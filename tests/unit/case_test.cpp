@@ -14,6 +14,7 @@
 #include <crashsim/model_io.hpp>
 #include <crashsim/outputs.hpp>
 
+#include "support/source_dir.hpp"
 #include "support/temp_dir.hpp"
 
 namespace crashsim {
@@ -26,7 +27,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using testing::ThrowsMessage;
 
-const std::string kData = std::string(CRASHSIM_SOURCE_DIR) + "/data";
+const std::string kData = std::string(test::source_dir()) + "/data";
 constexpr const char* kPulseOnly = "[pulse]\nfile = \"t.csv\"\n";
 
 constexpr const char* kFullCase = R"(title = "a study"

@@ -41,6 +41,7 @@ const std::map<std::string, Layer> kLayers = {
     {"table_io", base},
     {"text", base},
     {"time_series", base},
+    {"unit_suffix", base},
     {"units", base},
     {"version", base},
 
