@@ -50,8 +50,8 @@ struct StartReport {
 
 /// How an identification ended.
 enum class IdentifyOutcome { not_run, completed, no_max_crush, interrupted, every_start_failed, engines_disagree };
-inline constexpr std::string_view kIdentifyOutcomeNames[] = {
-    "not_run", "completed", "no_max_crush", "interrupted", "every_start_failed", "engines_disagree"};
+inline constexpr std::string_view kIdentifyOutcomeNames[] = {"not_run",     "completed",          "no_max_crush",
+                                                             "interrupted", "every_start_failed", "engines_disagree"};
 template <>
 inline constexpr std::span<const std::string_view> enum_names<IdentifyOutcome>{kIdentifyOutcomeNames};
 
