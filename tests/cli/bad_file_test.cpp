@@ -187,5 +187,14 @@ TEST(APulseWithoutEnd, IsWrittenAndTold) {
   EXPECT_TRUE(workspace.has("pulse.csv"));
 }
 
+TEST(APulseWithoutEnd, HasNoModel) {
+  const test::Workspace workspace;
+  workspace.file("weak.csv", test::half_sine_trace(10.0));
+  const test::Finished finished = workspace.run({"identify", "weak.csv", "-o", "model.json"});
+  EXPECT_EQ(finished.exit_code, test::kNumbersFailed);
+  EXPECT_THAT(finished.err, testing::HasSubstr("its velocity (5 m/s at 0.12 s) never reaches zero"));
+  EXPECT_THAT(workspace.names(), testing::ElementsAre("weak.csv"));
+}
+
 }  // namespace
 }  // namespace crashsim
