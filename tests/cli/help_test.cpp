@@ -23,24 +23,6 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-/// The words of a command line; quotes keep blanks and globs together, as in a shell.
-std::vector<std::string> words_of(const std::string& line) {
-  std::vector<std::string> words;
-  std::string word;
-  bool quoted = false;
-  for (const char c : line + " ") {
-    if (c == '\'') {
-      quoted = !quoted;
-    } else if (c != ' ' || quoted) {
-      word += c;
-    } else if (!word.empty()) {
-      words.push_back(word);
-      word.clear();
-    }
-  }
-  return words;
-}
-
 /// The command lines below "Example:" in a help text.
 std::vector<std::string> examples_in(const std::string& help) {
   constexpr std::string_view kMark = "Example:\n", kCommand = "  crashsim ";
@@ -69,9 +51,9 @@ TEST_P(Help, ShowsAnExample) {
 TEST_P(Help, ItsExampleWorksWordForWord) {
   std::string last;
   for (const std::string& example : examples_in(workspace.run({GetParam(), "--help"}).out)) {
-    const Finished finished = workspace.run(words_of(example));
+    const Finished finished = workspace.run(test::words_of(example));
     EXPECT_EQ(finished.exit_code, kDone) << "crashsim " << example << "\n" << finished.err;
-    last = words_of(example).front();
+    last = test::words_of(example).front();
   }
   EXPECT_EQ(last, GetParam());
 }

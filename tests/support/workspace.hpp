@@ -52,6 +52,24 @@ class Workspace {
   TempDir dir_;
 };
 
+/// The words of a command line; quotes keep blanks and globs together, as in a shell.
+inline std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  std::string word;
+  bool quoted = false;
+  for (const char c : line + " ") {
+    if (c == '\'') {
+      quoted = !quoted;
+    } else if (c != ' ' || quoted) {
+      word += c;
+    } else if (!word.empty()) {
+      words.push_back(word);
+      word.clear();
+    }
+  }
+  return words;
+}
+
 inline constexpr double kTraceSpeed_mps = 15.0;
 
 /// A half-sine deceleration of 100 ms after 10 ms of rest, as a foreign CSV file in g that says mass and speed. The
