@@ -38,7 +38,10 @@ class IdentifyCommand : public Command {
     check_output(inputs);
     const Identification fit = identify_watched(pulses);
     const Summary summary = summarize(fit);
-    if (!fit.ordinates.empty()) write(format_model(fit.model, &fit, &unwritten_record(inputs)));
+    if (!fit.ordinates.empty()) {
+      const Record made_by = record(files_, entries_of(options_.values, ""), inputs);
+      write(format_model(fit.model, &fit, &made_by));
+    }
     report(fit, summary);
     if (fit.outcome == IdentifyOutcome::interrupted) return kInterruptedExit;
     return fit.usable() ? kDone : kNumbersFailed;
@@ -52,11 +55,6 @@ class IdentifyCommand : public Command {
       line.show(done, total);
       return !interrupted();
     });
-  }
-
-  const Record& unwritten_record(const std::vector<std::string>& inputs) {
-    record_ = record(files_, entries_of(options_.values, ""), inputs);
-    return record_;
   }
 
   void report(const Identification& fit, const Summary& summary) const {
@@ -76,7 +74,6 @@ class IdentifyCommand : public Command {
 
   std::vector<std::string> files_;
   Bound<IdentifyOptions> options_;
-  Record record_;
 };
 
 }  // namespace
