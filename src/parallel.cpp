@@ -45,6 +45,7 @@ int parallel_for(int count, int threads, const std::function<void(int worker, in
 
   {
     std::vector<std::jthread> pool;
+    // NOLINTNEXTLINE(cppcoreguidelines-special-member-functions): one local object, never copied
     struct StopOnExit {  // also when progress throws
       std::atomic<bool>& stop;
       ~StopOnExit() { stop = true; }
