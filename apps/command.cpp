@@ -65,11 +65,11 @@ Command::Command(CLI::App& parent, const std::string& name, const std::string& w
   app_.footer("Example:\n  " + example);
 }
 
-void Command::add_output(const std::string& type_name, const std::string& what) {
+void Command::add_output(const std::string& type_name, const std::string& what, const std::string& overwrite) {
   app_.add_option("-o,--output", output_, what)
       ->type_name(type_name)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app_.add_flag("--force", force_, "replace an output that exists");
+  app_.add_flag(overwrite, overwrite_, "replace an output that exists");
 }
 
 void Command::add_reporting() {
@@ -94,20 +94,18 @@ std::vector<ConfigEntry> Command::config_entries() const {
 
 bool Command::set_shared(const ConfigEntry& entry) {
   const std::string what = entry.where + ": " + entry.key;
-  const auto is_given = [&](const char* flag) {
-    const CLI::Option* option = app_.get_option_no_throw(flag);
-    return option != nullptr && option->count() > 0;
-  };
-  if (entry.key == "output") {
+  const CLI::Option* named = app_.get_option_no_throw("--" + entry.key);
+  const auto is_named = [&](const char* flag) { return named != nullptr && named == app_.get_option_no_throw(flag); };
+  if (is_named("--output")) {
     const std::string path = detail::to_text(entry.value, what);
-    if (!is_given("--output")) output_ = path;
+    if (named->count() == 0) output_ = path;
     return true;
   }
-  for (const auto& [key, flag, member] : {std::tuple("force", "--force", &force_), std::tuple("json", "--json", &json_),
-                                          std::tuple("quiet", "--quiet", &quiet_)}) {
-    if (entry.key != key) continue;
+  for (const auto& [flag, member] :
+       {std::pair("--overwrite", &overwrite_), std::pair("--json", &json_), std::pair("--quiet", &quiet_)}) {
+    if (!is_named(flag)) continue;
     const bool value = detail::to_bool(entry.value, what);
-    if (!is_given(flag)) *member = value;
+    if (named->count() == 0) *member = value;
     return true;
   }
   return false;
@@ -134,13 +132,14 @@ void Command::check_writable(const std::string& path, const std::vector<std::str
   const fs::path folder = fs::path(path).parent_path();
   if (!folder.empty() && !fs::is_directory(folder, ignored))
     throw InvalidInput(fmt::format("{}: there is no folder {}: make it first", path, folder.string()));
-  if (!force_ && fs::is_regular_file(path, ignored))
-    throw InvalidInput(fmt::format("{}: exists already; choose another name, or --force to replace it", path));
+  if (!overwrite_ && fs::is_regular_file(path, ignored))
+    throw InvalidInput(fmt::format("{}: exists already; choose another name, or --{} to replace it", path,
+                                   app_.get_option("--overwrite")->get_lnames().back()));
 }
 
 void Command::write(const std::string& text) const {
   const CooperativeInterrupt finish_first;
-  if (!output_.empty()) write_output(output_, text, force_);
+  if (!output_.empty()) write_output(output_, text, overwrite_);
 }
 
 void Command::say(const std::string& line) const {

@@ -41,8 +41,9 @@ class Command {
   [[nodiscard]] CLI::App& app() { return app_; }
 
  protected:
-  /// `-o FILE`, and `--force`.
-  void add_output(const std::string& type_name, const std::string& what);
+  /// `-o FILE`, and the flag that lets it replace a file: --overwrite, also spelled --force where that is nothing else.
+  void add_output(const std::string& type_name, const std::string& what,
+                  const std::string& overwrite = "--overwrite,--force");
   /// `--json`, `--quiet` and `--config`.
   void add_reporting();
 
@@ -51,7 +52,7 @@ class Command {
   void resolve(Bound<S>&... bound) {
     for (const ConfigEntry& entry : config_entries()) {
       if (set_shared(entry) || (... || bound.flags.set_from_config(bound.values, entry))) continue;
-      std::vector<std::string_view> known = {"output", "force", "json", "quiet"};
+      std::vector<std::string_view> known = {"output", "overwrite", "json", "quiet"};
       [[maybe_unused]] const auto append = [&](const auto& names) {
         known.insert(known.end(), names.begin(), names.end());
       };
@@ -64,7 +65,7 @@ class Command {
   /// Refuses, before any work is done, an output that exists, is an input, or is missing while nothing else is asked;
   /// again when reading has told of further inputs (the channel files of a header).
   void check_output(const std::vector<std::string>& inputs) const;
-  /// Refuses to write a folder, a file that exists (without --force), one of the inputs or the configuration.
+  /// Refuses to write a folder, a file that exists (without --overwrite), one of the inputs or the configuration.
   void check_writable(const std::string& path, const std::vector<std::string>& inputs) const;
   /// Writes the output, if one was asked for.
   void write(const std::string& text) const;
@@ -84,7 +85,7 @@ class Command {
                               const std::vector<std::string>& inputs) const;
   [[nodiscard]] bool quiet() const { return quiet_; }
   [[nodiscard]] bool json() const { return json_; }
-  [[nodiscard]] bool force() const { return force_; }
+  [[nodiscard]] bool overwrite() const { return overwrite_; }
   [[nodiscard]] const std::string& output() const { return output_; }
 
  private:
@@ -94,7 +95,7 @@ class Command {
 
   CLI::App& app_;
   std::string output_, config_;
-  bool force_ = false, json_ = false, quiet_ = false;
+  bool overwrite_ = false, json_ = false, quiet_ = false;
 };
 
 /// Runs the program on its arguments (without the program's name). @returns the exit code.
@@ -104,6 +105,7 @@ std::unique_ptr<Command> make_info(CLI::App& app);
 std::unique_ptr<Command> make_pulse(CLI::App& app);
 std::unique_ptr<Command> make_identify(CLI::App& app);
 std::unique_ptr<Command> make_simulate(CLI::App& app);
+std::unique_ptr<Command> make_pitch(CLI::App& app);
 std::unique_ptr<Command> make_compare(CLI::App& app);
 std::unique_ptr<Command> make_run(CLI::App& app);
 std::unique_ptr<Command> make_schema(CLI::App& app);

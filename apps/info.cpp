@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,7 +11,24 @@
 
 #include "command.hpp"
 
-namespace crashsim::cli {
+namespace crashsim {
+namespace cli {
+
+struct InfoOptions {
+  std::string filter, columns, units;
+};
+constexpr std::array<Field<InfoOptions>, 3> kInfoFields = {{
+    {"filter", "filter", "", "only channels whose id or name is like this glob", &InfoOptions::filter},
+    {"columns", "columns", "", "columns of a CSV file: time:ms,accel:g", &InfoOptions::columns},
+    {"units", "units", "", "unit system of FE output: kg-m-s, t-mm-s, kg-mm-ms, g-mm-ms", &InfoOptions::units},
+}};
+
+}  // namespace cli
+
+template <>
+constexpr std::span<const Field<cli::InfoOptions>> fields<cli::InfoOptions>{cli::kInfoFields};
+
+namespace cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -81,42 +99,42 @@ class InfoCommand : public Command {
       : Command(parent, "info", "Tell what is in trace files: format, mass, speed, channels",
                 "crashsim info data/fe-car/C56.csv --filter '*REAR_VX'") {
     app().add_option("file", files_, "trace files")->required()->type_name("FILE");
-    app().add_option("--filter", filter_, "only channels whose id or name is like this glob")->type_name("GLOB");
-    app().add_option("--columns", read_.columns, "columns of a CSV file: time:ms,accel:g")->type_name("TEXT");
-    app()
-        .add_option("--units", read_.units, "unit system of FE output: kg-m-s, t-mm-s, kg-mm-ms, g-mm-ms")
-        ->type_name("TEXT");
-    app().add_flag("--json", as_json_, "as JSON: an object, or a list for several files");
+    options_.flags.add_to(app(), "Options");
+    add_reporting();
   }
 
   int run() override {
+    resolve(options_);
+    const ReadOptions read{{}, options_.values.columns, options_.values.units};
     Json all = Json::array();
     for (const std::string& file : files_) {
-      TraceFileInfo info = inspect_traces(file, read_);
-      if (!filter_.empty()) std::erase_if(info.channels, [&](const ChannelInfo& c) { return !is_like(c); });
-      if (as_json_)
+      TraceFileInfo info = inspect_traces(file, read);
+      if (!options_.values.filter.empty())
+        std::erase_if(info.channels, [&](const ChannelInfo& c) { return !is_like(c); });
+      if (json())
         all.push_back(to_json(info));
       else
         write_output("-", table_of(info), false);
     }
-    if (as_json_) write_output("-", text_of(all.size() == 1 ? all.front() : all), false);
+    if (json()) write_output("-", text_of(all.size() == 1 ? all.front() : all), false);
     return kDone;
   }
 
  private:
   [[nodiscard]] bool is_like(const ChannelInfo& channel) const {
-    const auto matches = [&](const std::string& text) { return ::fnmatch(filter_.c_str(), text.c_str(), 0) == 0; };
+    const auto matches = [&](const std::string& text) {
+      return ::fnmatch(options_.values.filter.c_str(), text.c_str(), 0) == 0;
+    };
     return matches(channel.id) || matches(channel.name);
   }
 
   std::vector<std::string> files_;
-  std::string filter_;
-  ReadOptions read_;
-  bool as_json_ = false;
+  Bound<InfoOptions> options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Command> make_info(CLI::App& app) { return std::make_unique<InfoCommand>(app); }
 
-}  // namespace crashsim::cli
+}  // namespace cli
+}  // namespace crashsim

@@ -1,5 +1,6 @@
 /// crashsim run: the whole chain of a case, or again what made an output.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -35,8 +36,10 @@ std::vector<std::string> command_line_of(const Record& record) {
 class RunCommand : public Command {
  public:
   explicit RunCommand(CLI::App& parent)
-      : Command(parent, "run", "Run a case: pulse, identification, simulation, comparison; or an output's record again",
-                "crashsim run data/fe-car/case.toml -o fe-car") {
+      : Command(
+            parent, "run",
+            "Run a case: pulse, identification, simulation, heave and pitch, comparison; or an output's record again",
+            "crashsim run data/fe-car/case.toml -o fe-car") {
     app()
         .add_option("case", file_, "case.toml; or a case.lock.json or other output, to make it again")
         ->required()
@@ -61,8 +64,11 @@ class RunCommand : public Command {
     study.identify = options_.values;
     check_outputs(study);
     const CaseResult result = run_watched(study);
-    write_files(case_files(study, result));
+    const std::vector<CaseFile> files = case_files(study, result);
+    write_files(files);
     report(study, result);
+    const auto is_summary = [](const CaseFile& file) { return file.name == kCaseSummary; };
+    print_json(std::find_if(files.begin(), files.end(), is_summary)->text);
     if (interrupted()) return kInterruptedExit;
     return result.usable() ? kDone : kNumbersFailed;
   }
@@ -76,7 +82,7 @@ class RunCommand : public Command {
     std::vector<std::string> line = command_line_of(record);
     std::vector<std::string> shared;
     if (!output().empty()) shared.insert(shared.end(), {"-o", output()});
-    if (force()) shared.emplace_back("--force");
+    if (overwrite()) shared.emplace_back("--overwrite");
     if (json()) shared.emplace_back("--json");
     if (quiet()) shared.emplace_back("--quiet");
     if (record.command == "identify") shared.push_back(fmt::format("--jobs={}", options_.values.jobs));
@@ -110,7 +116,7 @@ class RunCommand : public Command {
     std::error_code error;
     fs::create_directories(output(), error);
     if (error) throw SystemFailure(fmt::format("{}: cannot be made: {}", output(), error.message()));
-    for (const CaseFile& file : files) write_file_atomically(path_of(file.name), file.text, force());
+    for (const CaseFile& file : files) write_file_atomically(path_of(file.name), file.text, overwrite());
   }
 
   void report(const Case& study, const CaseResult& result) const {
@@ -121,14 +127,18 @@ class RunCommand : public Command {
     }
     if (result.identification) report_fit(*result.identification);
     if (result.response.outcome != CrushOutcome::not_run) report_motion(result);
+    if (result.forcing) {
+      for (const std::string& step : result.forcing->steps) say("  " + step);
+      warn(result.forcing->warnings);
+    }
+    if (result.pitch) report_pitch(*result.pitch);
     for (const Prediction& prediction : result.predictions)
       say(fmt::format("prediction at {}: {}", prediction.name, prediction.response.brief_report()));
-    for (const auto& [name, comparison] : result.comparisons) {
-      say(fmt::format("model against test, {}", name == "to_max_crush" ? "to maximum crush" : "whole record"));
-      for (const std::string& line : table_of(comparison)) say(line);
+    for (const NamedComparison& comparison : result.comparisons) {
+      say(fmt::format("model against test, {}", comparison.doc));
+      for (const std::string& line : table_of(comparison.result)) say(line);
     }
     if (!output().empty()) say(fmt::format("results in {}", output()));
-    print_json(format_summary(summarize(result), summary_parts(result)));
   }
 
   void report_fit(const Identification& fit) const {
@@ -142,6 +152,12 @@ class RunCommand : public Command {
           fit.starts.size(), fit.seconds));
     if (!fit.verdict.message.empty()) say("  verdict: " + fit.verdict.message);
     warn(fit.warnings);
+  }
+
+  void report_pitch(const PitchResponse& pitch) const {
+    say(fmt::format("heave and pitch: {}", pitch.brief_report()));
+    for (const std::string& note : pitch.notes) say("  note: " + note);
+    say(summarize(pitch));
   }
 
   void report_motion(const CaseResult& result) const {

@@ -8,13 +8,6 @@
 namespace crashsim::cli {
 namespace {
 
-std::vector<FileKey> vehicle_keys() {
-  std::vector<FileKey> keys;
-  for (const Field<HeavePitchModel>& field : fields<HeavePitchModel>)
-    keys.push_back({"", std::string(field.name), describe_field(field)});
-  return keys;
-}
-
 std::string as_text(const std::vector<FileKey>& keys) {
   std::string text;
   const std::string* section = nullptr;
@@ -53,12 +46,13 @@ class SchemaCommand : public Command {
       : Command(parent, "schema", "List the keys of a case, model or vehicle file: meaning, unit, range, default",
                 "crashsim schema case") {
     app().add_option("kind", kind_, "case, model or vehicle")->required()->type_name("KIND");
-    app().add_flag("--json", json_, "as JSON");
+    add_reporting();
   }
 
   int run() override {
+    resolve();
     const std::vector<FileKey> keys = keys_of_kind();
-    write_output("-", json_ ? as_json(keys) : as_text(keys), false);
+    write_output("-", json() ? as_json(keys) : as_text(keys), false);
     return kDone;
   }
 
@@ -71,7 +65,6 @@ class SchemaCommand : public Command {
   }
 
   std::string kind_;
-  bool json_ = false;
 };
 
 }  // namespace

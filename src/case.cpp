@@ -63,8 +63,9 @@ void compare_with_test(const Case& study, CaseResult& out) {
   const TraceSet test = motion_set("pulse", *out.pulse), model = motion_set("response", out.response);
   CompareOptions to_max_crush = study.comparison;
   to_max_crush.end_s = std::fmin(study.comparison.end_s, out.pulse->t_m_s);
-  if (!std::isnan(out.pulse->t_m_s)) out.comparisons.emplace_back("to_max_crush", compare(test, model, to_max_crush));
-  out.comparisons.emplace_back("whole_record", compare(test, model, study.comparison));
+  if (!std::isnan(out.pulse->t_m_s))
+    out.comparisons.push_back({"to_max_crush", "to maximum crush", compare(test, model, to_max_crush)});
+  out.comparisons.push_back({"whole_record", "whole record", compare(test, model, study.comparison)});
 }
 
 SimulateOptions at_speed(const Case& study, double impact_speed_mps) {
@@ -73,11 +74,33 @@ SimulateOptions at_speed(const Case& study, double impact_speed_mps) {
   return options;
 }
 
+/// The force that the case names, or the simulated crush force. The latter also acts beside a vertical force where the
+/// vehicle says at which height.
+PitchForcing find_forcing(const Case& study, const HeavePitchModel& vehicle, CaseResult& out) {
+  const PitchForcing simulated = forcing_of(out.response);
+  if (study.forcing.file.empty()) return simulated;
+  ForcingOptions options = study.forcing;
+  options.file = resolved(study, study.forcing.file);
+  out.forcing = read_forcing(options);
+  out.input_files.insert(out.input_files.end(), out.forcing->input_files.begin(), out.forcing->input_files.end());
+  PitchForcing forcing = out.forcing->forcing;
+  if (forcing.longitudinal_force_n.empty() && !std::isnan(vehicle.cg_height_m) && !std::isnan(vehicle.force_height_m))
+    forcing.longitudinal_force_n = simulated.longitudinal_force_n;
+  if (std::isnan(forcing.t_m_s)) forcing.t_m_s = simulated.t_m_s;
+  return forcing;
+}
+
+void simulate_heave_and_pitch(const Case& study, CaseResult& out) {
+  HeavePitchModel vehicle = study.vehicle;
+  vehicle.mass_kg = out.model.mass_kg;
+  out.pitch = simulate_pitch(vehicle, find_forcing(study, vehicle, out), study.motion);
+}
+
 }  // namespace
 
 bool CaseResult::usable() const {
   const auto is_usable = [](const Prediction& prediction) { return prediction.response.usable(); };
-  return (!identification || identification->usable()) && response.usable() &&
+  return (!identification || identification->usable()) && response.usable() && (!pitch || pitch->usable()) &&
          std::all_of(predictions.begin(), predictions.end(), is_usable);
 }
 
@@ -106,6 +129,7 @@ CaseResult run_case(const Case& study, const Progress& progress) {
   out.response = simulate(out.model, options);
   for (const double predicted : study.what.speeds_mps)
     out.predictions.push_back({prediction_name(predicted), simulate(out.model, at_speed(study, predicted))});
+  if (out.response.usable() && has_pitch(study)) simulate_heave_and_pitch(study, out);
   if (out.pulse && !out.response.time_s.empty()) compare_with_test(study, out);
   return out;
 }

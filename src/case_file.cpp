@@ -1,6 +1,7 @@
 /// Case files: read from TOML or a record, and written as one.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -45,11 +46,18 @@ Place place_of(std::string_view section, const Field<S>& field) {
   detail::throw_unknown_name(what, entry.key, here);
 }
 
+/// The key of an option; `force = {file = ..}` in [pitch] is a table of its own.
+std::string_view option_key(const ConfigEntry& entry) {
+  constexpr std::string_view kForce = "force.";
+  const std::string_view key = entry.key;
+  return entry.section == "pitch" && key.starts_with(kForce) ? key.substr(kForce.size()) : key;
+}
+
 void set(Case& study, const ConfigEntry& entry) {
   bool known = false;
   for_each_key(study, [&](std::string_view section, const auto& field, auto& options) {
     const Place place = place_of(section, field);
-    const bool is_named = section.empty() ? entry.key == place.key : is_key_of(entry.key, field);
+    const bool is_named = section.empty() ? entry.key == place.key : is_key_of(option_key(entry), field);
     if (known || place.section != entry.section || !is_named) return;
     const std::string path = place.section.empty() ? "" : fmt::format("[{}] ", place.section);
     set_option(options, field, entry.value, fmt::format("{}: {}{}", entry.where, path, entry.key));
@@ -89,11 +97,15 @@ std::string resolved(const Case& study, const std::string& path) {
   return (std::filesystem::path(study.path).parent_path() / path).lexically_normal().string();
 }
 
+bool has_pitch(const Case& study) {
+  return !std::isnan(study.vehicle.pitch_inertia_kgm2) || !study.forcing.file.empty();
+}
+
 std::string prediction_name(double speed_mps) { return fmt::format("{:.4g}kmh", 3.6 * speed_mps); }
 
 std::vector<std::string> case_inputs(const Case& study) {
   std::vector<std::string> paths = {study.path};
-  for (const std::string& file : {study.what.pulse_file, study.what.model_file})
+  for (const std::string& file : {study.what.pulse_file, study.what.model_file, study.forcing.file})
     if (!file.empty()) paths.push_back(resolved(study, file));
   for (const std::string& file : study.what.further_pulses) paths.push_back(resolved(study, file));
   return paths;
@@ -108,8 +120,8 @@ std::vector<FileKey> case_keys() {
   });
   std::stable_sort(keys.begin(), keys.end(), [](const FileKey& a, const FileKey& b) {
     const auto rank = [](const std::string& name) {
-      constexpr std::string_view kOrder[] = {"",         "vehicle",  "impact",  "pulse",  "crush",
-                                             "identify", "simulate", "compare", "predict"};
+      constexpr std::string_view kOrder[] = {"",         "vehicle",  "impact", "pulse",   "crush",
+                                             "identify", "simulate", "pitch",  "compare", "predict"};
       return std::find(std::begin(kOrder), std::end(kOrder), name) - std::begin(kOrder);
     };
     return rank(a.section) < rank(b.section);

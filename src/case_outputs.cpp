@@ -14,8 +14,8 @@ namespace {
 constexpr const char* kPulse = "pulse.csv";
 constexpr const char* kModel = "model.json";
 constexpr const char* kResponse = "response.csv";
+constexpr const char* kPitch = "pitch.csv";
 constexpr const char* kComparison = "comparison.json";
-constexpr const char* kSummary = "summary.json";
 constexpr const char* kRecord = "case.lock.json";
 
 std::string prediction_file(double speed_mps) { return fmt::format("prediction_{}.csv", prediction_name(speed_mps)); }
@@ -31,8 +31,14 @@ Summary ratings_of(const Comparison& comparison) {
 }  // namespace
 
 Summary summarize(const CaseResult& result) {
-  if (result.response.outcome != CrushOutcome::not_run) return summarize(result.response, result.model.mass_kg);
-  return {{"outcome", std::string(name_of(result.identification->outcome)), "outcome"}};
+  if (result.response.outcome == CrushOutcome::not_run)
+    return {{"outcome", std::string(name_of(result.identification->outcome)), "outcome"}};
+  Summary summary = summarize(result.response, result.model.mass_kg);
+  if (!result.pitch) return summary;
+  const Summary pitch = summarize(*result.pitch);
+  if (!result.pitch->usable()) summary.front() = pitch.front();
+  summary.insert(summary.end(), pitch.begin() + 1, pitch.end());
+  return summary;
 }
 
 std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& result) {
@@ -43,8 +49,8 @@ std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& res
     std::erase_if(fit, [](const SummaryItem& item) { return item.name == "seconds"; });  // the same bytes every time
     parts.emplace_back("identification", std::move(fit));
   }
-  for (const auto& [name, comparison] : result.comparisons)
-    parts.emplace_back("rating_" + name, ratings_of(comparison));
+  for (const NamedComparison& comparison : result.comparisons)
+    parts.emplace_back("rating_" + comparison.name, ratings_of(comparison.result));
   for (const Prediction& prediction : result.predictions)
     parts.emplace_back("prediction_" + prediction.name, summarize(prediction.response, result.model.mass_kg));
   return parts;
@@ -54,9 +60,10 @@ std::vector<std::string> case_file_names(const Case& study) {
   std::vector<std::string> names;
   if (!study.what.pulse_file.empty()) names.emplace_back(kPulse);
   names.insert(names.end(), {kModel, kResponse});
+  if (has_pitch(study)) names.emplace_back(kPitch);
   for (const double speed : study.what.speeds_mps) names.push_back(prediction_file(speed));
   if (!study.what.pulse_file.empty()) names.emplace_back(kComparison);
-  names.insert(names.end(), {kSummary, kRecord});
+  names.insert(names.end(), {std::string(kCaseSummary), kRecord});
   return names;
 }
 
@@ -69,11 +76,12 @@ std::vector<CaseFile> case_files(const Case& study, const CaseResult& result) {
     files.push_back({kModel, format_model(result.model, fit, &record)});
     files.push_back({kResponse, format_response(result.response, result.model.mass_kg, record)});
   }
+  if (result.pitch) files.push_back({kPitch, format_pitch(*result.pitch, record)});
   for (std::size_t i = 0; i < result.predictions.size(); ++i)
     files.push_back({prediction_file(study.what.speeds_mps[i]),
                      format_response(result.predictions[i].response, result.model.mass_kg, record)});
   if (!result.comparisons.empty()) files.push_back({kComparison, format_comparisons(result.comparisons, record)});
-  files.push_back({kSummary, format_summary(summarize(result), summary_parts(result))});
+  files.push_back({std::string(kCaseSummary), format_summary(summarize(result), summary_parts(result))});
   files.push_back({kRecord, format_record(record)});
   return files;
 }

@@ -14,6 +14,9 @@ namespace crashsim {
 /// A path in a case file as seen from where the program runs.
 std::string resolved(const Case& study, const std::string& path);
 
+/// Whether heave and pitch are to be simulated: the case describes the vehicle on its axles, or a force on it.
+bool has_pitch(const Case& study);
+
 /// What a prediction is called: "40kmh".
 std::string prediction_name(double speed_mps);
 
@@ -39,10 +42,14 @@ inline const std::vector<std::string_view> kCrushFlags = {"law", "spring-knots",
 inline auto case_sections() {
   std::vector<std::string_view> not_in_identify = kCrushFlags;
   not_in_identify.insert(not_in_identify.end(), {"mass"});
-  return std::tuple(CaseSection<PulseOptions>{"pulse", &Case::pulse, {}, {"mass", "speed"}},
+  return std::tuple(CaseSection<HeavePitchModel>{"vehicle", &Case::vehicle, {}, {"mass", "formulation"}},
+                    CaseSection<PulseOptions>{"pulse", &Case::pulse, {}, {"mass", "speed"}},
                     CaseSection<IdentifyOptions>{"crush", &Case::identify, kCrushFlags, {}},
                     CaseSection<IdentifyOptions>{"identify", &Case::identify, {}, not_in_identify},
                     CaseSection<SimulateOptions>{"simulate", &Case::simulation, {}, {"speed", "times"}},
+                    CaseSection<ForcingOptions>{"pitch", &Case::forcing, {}, {}},
+                    CaseSection<HeavePitchModel>{"pitch", &Case::vehicle, {"formulation"}, {}},
+                    CaseSection<PitchOptions>{"pitch", &Case::motion, {}, {}},
                     CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}});
 }
 

@@ -12,6 +12,7 @@
 #include <crashsim/option_values.hpp>
 
 #include "json.hpp"
+#include "record_json.hpp"
 
 namespace crashsim {
 namespace {
@@ -214,7 +215,7 @@ std::string format_model(const CrushModel& model, const Identification* identifi
   if (!model.damper.knots.empty()) json["damper"] = curve_json(model.damper, kDamperKnots, kDamperOrdinates);
   json["unloading"] = {{"kind", name_of(model.unloading.kind)}, {"bilateral", model.unloading.bilateral}};
   if (identification != nullptr) json["identification"] = identification_json(*identification);
-  if (record != nullptr) json["record"] = Json::parse(to_json(*record));
+  if (record != nullptr) json["record"] = record_json(*record);
   return format_json(json);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "nearest.hpp"
+#include "text.hpp"
 
 namespace crashsim {
 namespace {
@@ -21,15 +22,9 @@ std::string kind_of(const OptionValue& value) {
   throw InvalidInput(fmt::format("{}: must be {}, not {}", what, wanted, kind_of(value)));
 }
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::size_t from = 0;
-  while (true) {
-    const std::size_t comma = text.find(',', from);
-    parts.push_back(text.substr(from, comma - from));
-    if (comma == std::string::npos) return parts;
-    from = comma + 1;
-  }
+std::vector<std::string> listed(std::string_view text) {
+  const auto parts = split(text, ',');
+  return {parts.begin(), parts.end()};
 }
 
 Dimension dimension_of_field(std::string_view unit) { return unit.empty() ? Dimension::none : dimension_of(unit); }
@@ -118,7 +113,7 @@ std::vector<double> to_numbers(const OptionValue& value, std::string_view unit, 
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
     parts = *texts;
   else if (const auto* text = std::get_if<std::string>(&value))
-    parts = split(*text);
+    parts = listed(*text);
   else
     return {to_number(value, unit, what)};
   std::vector<double> numbers;
@@ -129,7 +124,7 @@ std::vector<double> to_numbers(const OptionValue& value, std::string_view unit, 
 std::vector<std::string> to_texts(const OptionValue& value, std::string_view what) {
   if (std::holds_alternative<std::monostate>(value)) return {};
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) return *texts;
-  if (const auto* text = std::get_if<std::string>(&value)) return split(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return listed(*text);
   std::vector<std::string> texts;
   if (const auto* number = std::get_if<std::int64_t>(&value)) return {fmt::format("{}", *number)};
   if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {

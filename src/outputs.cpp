@@ -7,6 +7,7 @@
 #include <crashsim/units.hpp>
 
 #include "json.hpp"
+#include "record_json.hpp"
 
 namespace crashsim {
 namespace {
@@ -17,8 +18,6 @@ Comments header(const Record& record, double mass_kg, double impact_speed_mps) {
   comments.emplace_back("impact_speed_mps", format_number(impact_speed_mps));
   return comments;
 }
-
-Json record_json(const Record& record) { return Json::parse(to_json(record)); }
 
 template <class S, std::size_t N>
 Json numbers_json(const S& numbers, const std::array<NamedNumber<S>, N>& table) {
@@ -74,16 +73,25 @@ std::string format_response(const CrushResponse& response, double mass_kg, const
                                {"energy_residual_j", response.energy_residual_j}});
 }
 
+std::string format_pitch(const PitchResponse& response, const Record& record) {
+  Comments comments = {{"crashsim", record.version}, {"outcome", std::string(name_of(response.outcome))}};
+  for (const std::string& note : response.notes) comments.emplace_back("note", note);
+  comments.emplace_back("record", to_json(record));
+  std::vector<Column> columns;
+  for (const PitchColumn& column : kPitchColumns)
+    columns.push_back({std::string(column.name), response.*column.member});
+  return format_csv(comments, columns);
+}
+
 std::string format_comparison(const Comparison& comparison, const Record& record) {
   Json json = comparison_json(comparison);
   json["record"] = record_json(record);
   return format_json(json);
 }
 
-std::string format_comparisons(const std::vector<std::pair<std::string, Comparison>>& comparisons,
-                               const Record& record) {
+std::string format_comparisons(const std::vector<NamedComparison>& comparisons, const Record& record) {
   Json json = Json::object();
-  for (const auto& [name, comparison] : comparisons) json[name] = comparison_json(comparison);
+  for (const NamedComparison& comparison : comparisons) json[comparison.name] = comparison_json(comparison.result);
   json["record"] = record_json(record);
   return format_json(json);
 }

@@ -10,6 +10,7 @@
 #include <crashsim/version.hpp>
 
 #include "json.hpp"
+#include "record_json.hpp"
 #include "text.hpp"
 
 namespace crashsim {
@@ -75,19 +76,18 @@ Record make_record(std::string command, std::vector<std::string> arguments, std:
   return record;
 }
 
-std::string to_json(const Record& record) {
+Json record_json(const Record& record) {
   Json options = Json::object();
   for (const ConfigEntry& entry : record.options)
     (entry.section.empty() ? options : options[entry.section])[entry.key] = json_option(entry.value);
   Json inputs = Json::array();
   for (const RecordedInput& input : record.inputs) inputs.push_back({{"path", input.path}, {"sha256", input.sha256}});
-  return format_json_line({{"format", kFormat},
-                           {"version", record.version},
-                           {"command", record.command},
-                           {"arguments", record.arguments},
-                           {"options", options},
-                           {"inputs", inputs}});
+  return {{"format", kFormat},         {"version", record.version},
+          {"command", record.command}, {"arguments", record.arguments},
+          {"options", options},        {"inputs", inputs}};
 }
+
+std::string to_json(const Record& record) { return format_json_line(record_json(record)); }
 
 std::optional<Record> find_record(const std::string& path) {
   const std::string text = read_file(path);

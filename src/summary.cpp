@@ -76,6 +76,13 @@ Summary summarize(const CrushResponse& response, double mass_kg) {
   return summary;
 }
 
+Summary summarize(const PitchResponse& response) {
+  Summary summary = {{"outcome", std::string(name_of(response.outcome)), "outcome"}};
+  for (const auto& number : kPitchNumbers)
+    summary.push_back({std::string(number.name), response.*number.member, std::string(number.doc)});
+  return summary;
+}
+
 Summary summarize(const Identification& fit) {
   return {{"outcome", std::string(name_of(fit.outcome)), "outcome"},
           {"error", fit.error.total, "error E of the fit"},

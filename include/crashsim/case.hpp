@@ -4,16 +4,20 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <crashsim/comparison.hpp>
 #include <crashsim/config.hpp>
+#include <crashsim/forcing.hpp>
+#include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
 #include <crashsim/option_docs.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_pitch.hpp>
 #include <crashsim/summary.hpp>
 
 namespace crashsim {
@@ -60,6 +64,9 @@ struct Case {
   PulseOptions pulse;          ///< [pulse]
   IdentifyOptions identify;    ///< [identify]; law and knots stand in [crush]
   SimulateOptions simulation;  ///< [simulate]
+  HeavePitchModel vehicle;     ///< [vehicle], its formulation in [pitch]; the mass is that of the crush.
+  ForcingOptions forcing;      ///< [pitch] force = {file, channel, ..}; without a file: the simulated crush force.
+  PitchOptions motion;         ///< [pitch]
   CompareOptions comparison;   ///< [compare]
 };
 
@@ -85,8 +92,10 @@ struct CaseResult {
   std::optional<Identification> identification;
   CrushModel model;
   CrushResponse response;
+  std::optional<MeasuredForcing> forcing;  ///< Where [pitch] names a file.
+  std::optional<PitchResponse> pitch;
   std::vector<Prediction> predictions;
-  std::vector<std::pair<std::string, Comparison>> comparisons;  ///< "to_max_crush" and "whole_record"
+  std::vector<NamedComparison> comparisons;  ///< "to_max_crush" and "whole_record"
   std::vector<std::string> input_files;
 
   /// True when every step gave a result to rely on.
@@ -96,7 +105,8 @@ struct CaseResult {
 /// Runs a case. @throws InvalidInput on bad options, files or values.
 CaseResult run_case(const Case& study, const Progress& progress = {});
 
-/// Summary of a result: of the model's response, and parts "pulse", "identification", "comparison".
+/// Summary of a result: of the model's response and its heave and pitch; and parts "pulse", "identification",
+/// "comparison".
 Summary summarize(const CaseResult& result);
 std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& result);
 
@@ -105,14 +115,17 @@ struct CaseFile {
   std::string name, text;
 };
 
+/// Name of the file that holds the summary.
+inline constexpr std::string_view kCaseSummary = "summary.json";
+
 /// The files that a case names, and its own: what it reads.
 std::vector<std::string> case_inputs(const Case& study);
 
 /// Names of the files that a case will write, in the order of case_files().
 std::vector<std::string> case_file_names(const Case& study);
 
-/// The files of a case directory: pulse.csv, model.json, response.csv, prediction_*.csv, comparison.json, summary.json
-/// and, last, case.lock.json, the record.
+/// The files of a case directory: pulse.csv, model.json, response.csv, pitch.csv, prediction_*.csv, comparison.json,
+/// summary.json and, last, case.lock.json, the record.
 std::vector<CaseFile> case_files(const Case& study, const CaseResult& result);
 
 }  // namespace crashsim

@@ -46,6 +46,13 @@ struct Comparison {
   std::vector<std::string> notes;  ///< What a careful reader should know.
 };
 
+/// One comparison of several.
+struct NamedComparison {
+  std::string name;  ///< In files: "to_max_crush".
+  std::string doc;   ///< For people: "to maximum crush".
+  Comparison result;
+};
+
 /// Compares the channels of the same name that both sets have samples of; a unit suffix may differ (`accel_g` and
 /// `accel_mps2`). The candidate is interpolated linearly at the reference's samples; a reference with non-uniform steps
 /// is first brought to uniform ones.

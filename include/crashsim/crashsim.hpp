@@ -7,6 +7,7 @@
 #include <crashsim/crush_model.hpp>
 #include <crashsim/error.hpp>
 #include <crashsim/files.hpp>
+#include <crashsim/forcing.hpp>
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
 #include <crashsim/identify_options.hpp>
@@ -31,4 +32,5 @@
 #include <crashsim/trace.hpp>
 #include <crashsim/trace_io.hpp>
 #include <crashsim/units.hpp>
+#include <crashsim/vehicle_io.hpp>
 #include <crashsim/version.hpp>

@@ -9,6 +9,7 @@
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_pitch.hpp>
 
 namespace crashsim {
 
@@ -18,9 +19,11 @@ std::string format_pulse(const Pulse& pulse, const Record& record);
 /// response.csv: the same columns, then `spring_force_n,damper_force_n,energy_residual_j`.
 std::string format_response(const CrushResponse& response, double mass_kg, const Record& record);
 
+/// pitch.csv: the columns of kPitchColumns; outcome and notes as comments.
+std::string format_pitch(const PitchResponse& response, const Record& record);
+
 /// rating.json, or comparison.json when there are several: each under its name.
-std::string format_comparisons(const std::vector<std::pair<std::string, Comparison>>& comparisons,
-                               const Record& record);
+std::string format_comparisons(const std::vector<NamedComparison>& comparisons, const Record& record);
 std::string format_comparison(const Comparison& comparison, const Record& record);
 
 /// case.lock.json: the record alone.

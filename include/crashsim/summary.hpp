@@ -11,6 +11,7 @@
 #include <crashsim/metrics.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_pitch.hpp>
 
 namespace crashsim {
 
@@ -34,6 +35,8 @@ Metrics metrics_of(const CrushResponse& response, double mass_kg);
 /// `outcome`, then every metric. The outcome of a pulse is "completed" or "no_max_crush".
 Summary summarize(const Pulse& pulse);
 Summary summarize(const CrushResponse& response, double mass_kg);
+/// `outcome`, then the numbers of kPitchNumbers.
+Summary summarize(const PitchResponse& response);
 /// Outcome, errors, starts and verdict.
 Summary summarize(const Identification& identification);
 

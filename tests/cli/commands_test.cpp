@@ -11,6 +11,7 @@
 
 #include <crashsim/metrics.hpp>
 #include <crashsim/model_io.hpp>
+#include <crashsim/simulate_pitch.hpp>
 #include <crashsim/trace_io.hpp>
 
 #include "support/workspace.hpp"
@@ -204,6 +205,27 @@ TEST_F(Commands, RunWritesTheCaseDirectory) {
   EXPECT_EQ(keys_of(summary), keys);
   EXPECT_EQ(summary["outcome"], "completed");
   for (const char* part : {"pulse", "prediction_60kmh"}) EXPECT_EQ(keys_of(summary[part]), summary_keys()) << part;
+}
+
+TEST_F(Commands, PitchWritesHeaveAndPitch) {
+  const std::vector<std::string> command = {
+      "pitch",     "data/paper/table1.json", "--mass",      "2582kg", "--force", "data/fe-car/C56.csv",
+      "--channel", "barrier_impulse_FTZ",    "--force-arm", "1.7m"};
+  const json summary = summary_of(with(command, {"--start", "impact", "-o", "pitch.csv"}));
+  EXPECT_THAT(keys_of(summary),
+              ElementsAre("heave_min_m", "heave_velocity_min_mps", "outcome", "pitch_max_rad", "pitch_max_time_s"));
+  const TraceSet pitch = read_traces(workspace.path("pitch.csv"));
+  EXPECT_EQ(pitch.traces.size() + 1, kPitchColumns.size());
+  const Finished report = run(with(command, {"--velocity", "*_REAR_VX", "-o", "-", "--end", "200ms"}));
+  EXPECT_THAT(report.out, StartsWith("# crashsim = "));
+  EXPECT_THAT(report.err, AllOf(HasSubstr("where the velocity ends"), HasSubstr("free motion: ")));
+}
+
+TEST_F(Commands, PitchTakesTheForceOfASimulatedCrush) {
+  static_cast<void>(run({"simulate", "data/syn-a/model.json", "-o", "response.csv"}));
+  const json summary = summary_of({"pitch", "data/paper/table1.json", "--force", "response.csv", "--cg-height", "0.6m",
+                                   "--force-height", "0.5m", "--formulation", "derived"});
+  EXPECT_GT(summary["pitch_max_rad"].get<double>(), 0.0);
 }
 
 TEST_F(Commands, SchemaListsKeysWithUnitsRangesAndDefaults) {

@@ -81,6 +81,14 @@ TEST_F(Config, GivesRunItsThreads) {
   EXPECT_EQ(finished.exit_code, kDone) << finished.err;
 }
 
+TEST_F(Config, GivesInfoAndSchemaTheirs) {
+  workspace.file("options.toml", "[info]\ncolumns = \"time:s,speed:km/h\"\n[schema]\njson = true\n");
+  workspace.file("bare.csv", "0,36\n1,18\n");
+  const Finished info = workspace.run({"info", "bare.csv", "--json", "--quiet", "--config", "options.toml"});
+  EXPECT_EQ(json::parse(info.out)["channels"][0]["max"], 10.0) << info.err;
+  EXPECT_TRUE(json::parse(workspace.run({"schema", "model", "--config", "options.toml"}).out).is_array());
+}
+
 struct Bad {
   const char* what;
   const char* text;
@@ -102,22 +110,23 @@ TEST_P(BadConfig, IsRefusedWithFileLineAndRule) {
 
 INSTANTIATE_TEST_SUITE_P(
     Files, BadConfig,
-    testing::Values(
-        Bad{"unknown_key", "\ncfx = 60\n", "o.toml:2: unknown name 'cfx', did you mean 'cfc'? (known: output, force"},
-        Bad{"unknown_key_of_the_subcommand", "[pulse]\nmas = 1\n",
-            "o.toml:2: unknown name 'mas', did you mean 'mass'?"},
-        Bad{"unknown_table", "[puls]\ncfc = 60\n",
-            "o.toml:2: [puls] is no subcommand: options of this one stand in [pulse] or before any table"},
-        Bad{"unit_of_another_quantity", "mass = \"5 m\"\n", "o.toml:1: mass = '5 m': 'm' measures length, not mass"},
-        Bad{"out_of_range", "mass = -3\n", "o.toml:1: mass = -3 kg: must be > 0"},
-        Bad{"text_for_a_flag", "force = \"please\"\n", "o.toml:1: force: must be true or false, not text"},
-        Bad{"flag_for_a_number", "cfc = true\n",
-            "o.toml:1: cfc: must be a number in Hz or text with a unit, not true or false"},
-        Bad{"a_date", "cfc = 2020-01-01\n",
-            "o.toml:1: cfc: must be a number, a text, true or false, or a list of them"},
-        Bad{"a_list_of_lists", "bias = [[1]]\n", "o.toml:1: bias: a list must hold numbers or texts"},
-        Bad{"not_toml", "cfc = 60\nmass 3\n", "o.toml:2: is not TOML: "},
-        Bad{"a_key_twice", "cfc = 60\ncfc = 61\n", "o.toml:2: is not TOML: "}));
+    testing::Values(Bad{"unknown_key", "\ncfx = 60\n",
+                        "o.toml:2: unknown name 'cfx', did you mean 'cfc'? (known: output, overwrite"},
+                    Bad{"unknown_key_of_the_subcommand", "[pulse]\nmas = 1\n",
+                        "o.toml:2: unknown name 'mas', did you mean 'mass'?"},
+                    Bad{"unknown_table", "[puls]\ncfc = 60\n",
+                        "o.toml:2: [puls] is no subcommand: options of this one stand in [pulse] or before any table"},
+                    Bad{"unit_of_another_quantity", "mass = \"5 m\"\n",
+                        "o.toml:1: mass = '5 m': 'm' measures length, not mass"},
+                    Bad{"out_of_range", "mass = -3\n", "o.toml:1: mass = -3 kg: must be > 0"},
+                    Bad{"text_for_a_flag", "force = \"please\"\n", "o.toml:1: force: must be true or false, not text"},
+                    Bad{"flag_for_a_number", "cfc = true\n",
+                        "o.toml:1: cfc: must be a number in Hz or text with a unit, not true or false"},
+                    Bad{"a_date", "cfc = 2020-01-01\n",
+                        "o.toml:1: cfc: must be a number, a text, true or false, or a list of them"},
+                    Bad{"a_list_of_lists", "bias = [[1]]\n", "o.toml:1: bias: a list must hold numbers or texts"},
+                    Bad{"not_toml", "cfc = 60\nmass 3\n", "o.toml:2: is not TOML: "},
+                    Bad{"a_key_twice", "cfc = 60\ncfc = 61\n", "o.toml:2: is not TOML: "}));
 
 TEST_F(Config, AMissingFileIsNamed) {
   const Finished finished = workspace.run({"pulse", "trace.csv", "--config", "none.toml", "-o", "p.csv"});

@@ -170,8 +170,8 @@ TEST(RunCase, TheFiniteElementCarGivesAUsableModel) {
   EXPECT_EQ(result.response.time_s.back(), result.pulse->time_s.back());
   EXPECT_THAT(result.predictions, SizeIs(1));
   EXPECT_THAT(result.comparisons, SizeIs(2));
-  EXPECT_EQ(result.comparisons[0].first, "to_max_crush");
-  EXPECT_LE(result.comparisons[0].second.end_s, result.pulse->t_m_s);
+  EXPECT_EQ(result.comparisons[0].name, "to_max_crush");
+  EXPECT_LE(result.comparisons[0].result.end_s, result.pulse->t_m_s);
   EXPECT_THAT(result.input_files, ElementsAre(kData + "/fe-car/C56.csv"));
   std::vector<std::string> names;
   for (const CaseFile& file : case_files(study, result)) names.push_back(file.name);
@@ -223,8 +223,48 @@ TEST(RunCase, AModelIsComparedWithATest) {
   const CaseResult result = run_case(study);
   EXPECT_FALSE(result.identification.has_value());
   ASSERT_THAT(result.comparisons, SizeIs(2));
-  ASSERT_THAT(result.comparisons[1].second.channels, SizeIs(1));
-  EXPECT_EQ(result.comparisons[1].second.channels[0].name, "velocity_mps");
+  ASSERT_THAT(result.comparisons[1].result.channels, SizeIs(1));
+  EXPECT_EQ(result.comparisons[1].result.channels[0].name, "velocity_mps");
+}
+
+constexpr const char* kVehicle =
+    "[vehicle]\npitch_inertia = 2000\nfront_axle = 1.2\nrear_axle = 1.4\nfront_stiffness = 6e4\n"
+    "rear_stiffness = 4e4\nfront_damping = 3e3\nrear_damping = 6e3\nforce_arm = 1.7\n";
+
+TEST(RunCase, ThePitchOfAVehicleComesFromTheForceThatItNames) {
+  const test::TempDir dir;
+  const Case study = read_case(dir.file(
+      "case.toml", fmt::format("[crush]\nmodel = \"{0}/syn-a/model.json\"\n{1}[pitch]\nend = \"200 ms\"\nforce = "
+                               "{{file = \"{0}/fe-car/C56.csv\", channel = \"barrier_impulse_FTZ\"}}\n",
+                               kData, kVehicle)));
+  const CaseResult result = run_case(study);
+  ASSERT_TRUE(result.pitch.has_value());
+  EXPECT_EQ(result.pitch->start_time_s, result.response.t_m_s);
+  ForcingOptions forcing;
+  forcing.file = kData + "/fe-car/C56.csv";
+  forcing.vertical_channels = {"barrier_impulse_FTZ"};
+  forcing.t_m_s = result.response.t_m_s;
+  HeavePitchModel vehicle = study.vehicle;
+  vehicle.mass_kg = result.model.mass_kg;
+  const PitchResponse alone = simulate_pitch(vehicle, read_forcing(forcing).forcing, study.motion);
+  EXPECT_EQ(result.pitch->pitch_rad, alone.pitch_rad);
+  EXPECT_THAT(result.input_files, testing::Contains(testing::EndsWith("C56.csv")));
+  const auto summary = nlohmann::json::parse(format_summary(summarize(result), summary_parts(result)));
+  EXPECT_EQ(summary["pitch_max_rad"], alone.pitch_max_rad);
+  EXPECT_THAT(case_file_names(study), testing::Contains("pitch.csv"));
+}
+
+TEST(RunCase, TheSimulatedCrushForcePitchesAVehicleThatSaysItsHeights) {
+  const test::TempDir dir;
+  const std::string text =
+      fmt::format("[crush]\nmodel = \"{}/syn-a/model.json\"\n{}cg_height = 0.6\n", kData, kVehicle);
+  const Case study = read_case(dir.file("a.toml", text + "force_height = 0.4\n[pitch]\nstart = \"impact\"\n"));
+  const CaseResult result = run_case(study);
+  ASSERT_TRUE(result.pitch.has_value());
+  EXPECT_GT(result.pitch->pitch_max_rad, 0.0);
+  EXPECT_FALSE(result.forcing.has_value());
+  EXPECT_THAT([&] { static_cast<void>(run_case(read_case(dir.file("b.toml", text)))); },
+              testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("force_height_m is not set")));
 }
 
 TEST(RunCase, CanBeStopped) {

@@ -36,6 +36,7 @@ const std::map<std::string, Layer> kLayers = {
     {"parallel", base},
     {"piecewise_linear", base},
     {"record", base},
+    {"record_json", base},
     {"root", base},
     {"solver_statistics", base},
     {"table_io", base},
@@ -57,6 +58,7 @@ const std::map<std::string, Layer> kLayers = {
     {"heave_pitch_model", models},
     {"solver/crush_force", models},
 
+    {"forcing", simulation},
     {"simulate", simulation},
     {"simulate_pitch", simulation},
     {"solver/", simulation},
@@ -82,6 +84,7 @@ const std::map<std::string, Layer> kLayers = {
     {"model_io", pipeline},
     {"outputs", pipeline},
     {"summary", pipeline},
+    {"vehicle_io", pipeline},
 
     {"crashsim", everything},
 };

@@ -1,0 +1,20 @@
+#pragma once
+/// The vehicle on its axles as a file, vehicle.json.
+
+#include <string>
+#include <vector>
+
+#include <crashsim/heave_pitch_model.hpp>
+#include <crashsim/option_docs.hpp>
+
+namespace crashsim {
+
+/// Every key of vehicle.json.
+std::vector<FileKey> vehicle_keys();
+
+/// Reads a vehicle: JSON with the keys of vehicle_keys(), or the [vehicle] table of a TOML file.
+/// @throws InvalidInput with path, key, value and rule when it is missing, neither JSON nor TOML, has an unknown key, a
+///         bad value, or lacks one that every vehicle has.
+HeavePitchModel read_vehicle(const std::string& path);
+
+}  // namespace crashsim

@@ -1,0 +1,237 @@
+#include <crashsim/forcing.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <crashsim/error.hpp>
+#include <crashsim/option_values.hpp>
+#include <crashsim/pulse.hpp>
+#include <crashsim/signal.hpp>
+#include <crashsim/trace_io.hpp>
+
+namespace crashsim {
+namespace {
+
+constexpr double kImpulseCfc = 60.0;  // SAE J211: barrier forces
+constexpr double kClearForce = 0.05;  // of the largest: below it the height of a force says nothing
+constexpr std::size_t kFewestSamples = 3;
+
+using Names = std::vector<std::string>;
+
+/// One file's channels on their way to forces.
+class Source {
+ public:
+  Source(const TraceSet& set, const ForcingOptions& options, MeasuredForcing& out)
+      : set_(set), options_(options), out_(out) {}
+
+  /// Channels that selectors name, in order, each once.
+  [[nodiscard]] std::vector<const Trace*> pick(const Names& selectors) const {
+    std::vector<const Trace*> picked;
+    for (const std::string& selector : selectors)
+      for (const std::size_t i : select_channels(set_, selector))
+        if (std::find(picked.begin(), picked.end(), &set_.traces[i]) == picked.end()) picked.push_back(&set_.traces[i]);
+    for (const Trace* trace : picked) check(*trace);
+    return picked;
+  }
+
+  [[nodiscard]] const Trace* find(std::string_view name) const {
+    const auto found = std::find_if(set_.traces.begin(), set_.traces.end(),
+                                    [&](const Trace& trace) { return trace.name == name && trace.has_samples; });
+    return found == set_.traces.end() ? nullptr : &*found;
+  }
+
+  /// A channel as a force: an impulse is differentiated; filtered as the options say.
+  [[nodiscard]] TimeSeries force(const Trace& trace) const {
+    const bool is_impulse = trace.dimension == Dimension::impulse;
+    if (!is_impulse && trace.dimension != Dimension::force)
+      throw InvalidInput(fmt::format("{}: measures {}; a force or an impulse is needed", what(trace),
+                                     dimension_name(trace.dimension)));
+    TimeSeries series{{trace.times().begin(), trace.times().end()}, trace.values};
+    if (is_impulse) series.values = differentiate(series.time_s, series.values);
+    const double cfc = std::isnan(options_.cfc) ? (is_impulse ? kImpulseCfc : 0.0) : options_.cfc;
+    const std::string done = filter(series, cfc, trace);
+    out_.steps.push_back(fmt::format("channel {}: {}{}", trace.name, is_impulse ? "impulse differentiated" : "force",
+                                     done.empty() ? "" : ", " + done));
+    return series;
+  }
+
+  [[nodiscard]] std::string what(const Trace& trace) const {
+    return fmt::format("{}: channel {} {}", set_.path, trace.id, trace.name);
+  }
+
+ private:
+  void check(const Trace& trace) const {
+    if (!trace.problem.empty()) throw InvalidInput(fmt::format("{}: {}", what(trace), trace.problem));
+    if (!trace.has_samples) throw InvalidInput(fmt::format("{}: its samples are not there", what(trace)));
+    check_series(trace.times(), trace.values, what(trace), kFewestSamples);
+  }
+
+  /// Filters in place, on uniform steps. @returns what was done.
+  [[nodiscard]] std::string filter(TimeSeries& series, double cfc, const Trace& trace) const {
+    if (!(cfc > 0.0)) return {};
+    std::string resampled;
+    double dt_s = uniform_step(series.time_s);
+    if (std::isnan(dt_s)) {
+      dt_s = (series.time_s.back() - series.time_s.front()) / static_cast<double>(series.time_s.size() - 1);
+      std::vector<double> uniform = uniform_times(series.time_s.front(), dt_s, series.time_s.size());
+      uniform.back() = series.time_s.back();
+      series.values = resample(series.time_s, series.values, uniform);
+      series.time_s = std::move(uniform);
+      resampled = fmt::format("resampled to steps of {:.6g} s, ", dt_s);
+    }
+    try {
+      series.values = cfc_filter(series.values, dt_s, cfc);
+    } catch (const InvalidInput& problem) {
+      throw InvalidInput(fmt::format("{}: {}", what(trace), problem.what()));
+    }
+    return fmt::format("{}filtered by CFC{:g}", resampled, cfc);
+  }
+
+  const TraceSet& set_;
+  const ForcingOptions& options_;
+  MeasuredForcing& out_;
+};
+
+/// Adds b to a, on a's times; zero where b has none.
+void add(TimeSeries& a, const TimeSeries& b, double weight) {
+  if (a.empty()) {
+    a = b;
+    for (double& value : a.values) value *= weight;
+    return;
+  }
+  std::vector<double> inside;
+  std::copy_if(a.time_s.begin(), a.time_s.end(), std::back_inserter(inside),
+               [&](double t) { return t >= b.time_s.front() && t <= b.time_s.back(); });
+  const std::vector<double> values = resample(b.time_s, b.values, inside);
+  const auto first =
+      static_cast<std::size_t>(std::lower_bound(a.time_s.begin(), a.time_s.end(), b.time_s.front()) - a.time_s.begin());
+  for (std::size_t i = 0; i < values.size(); ++i) a.values[first + i] += weight * values[i];
+}
+
+double impulse_of(const TimeSeries& force) { return integrate(force.time_s, force.values, 0.0).back(); }
+
+void turn(TimeSeries& force) {
+  for (double& value : force.values) value = -value;
+}
+
+/// Sum of forces, and of forces times heights.
+struct Rows {
+  TimeSeries force, moment;
+};
+
+/// Height of the force where it is clear of noise, held between.
+TimeSeries height_of(const Rows& rows) {
+  const auto largest = *std::max_element(rows.force.values.begin(), rows.force.values.end());
+  TimeSeries height;
+  for (std::size_t i = 0; i < rows.force.values.size(); ++i) {
+    if (rows.force.values[i] < kClearForce * largest) continue;
+    height.time_s.push_back(rows.force.time_s[i]);
+    height.values.push_back(rows.moment.values[i] / rows.force.values[i]);
+  }
+  return height;
+}
+
+void set_longitudinal(const Source& source, const std::vector<const Trace*>& channels, const ForcingOptions& options,
+                      const std::string& path, MeasuredForcing& out) {
+  if (channels.empty()) return;
+  const std::vector<double>& heights = options.row_heights_m;
+  if (!heights.empty() && heights.size() != channels.size())
+    throw InvalidInput(fmt::format("{}: row_heights_m has {} heights for {} longitudinal channels: one each is needed",
+                                   path, heights.size(), channels.size()));
+  Rows rows;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const TimeSeries force = source.force(*channels[i]);
+    add(rows.force, force, 1.0);
+    if (!heights.empty()) add(rows.moment, force, heights[i]);
+  }
+  if (impulse_of(rows.force) < 0.0) {
+    turn(rows.force);
+    turn(rows.moment);
+    out.steps.emplace_back("longitudinal force: sign turned, so that it stops the vehicle");
+  }
+  if (!heights.empty()) out.forcing.force_height_m = height_of(rows);
+  out.forcing.longitudinal_force_n = std::move(rows.force);
+}
+
+/// Time at which the mean of velocities, turned to start positive, comes to zero.
+double end_of_velocity(const std::vector<const Trace*>& channels) {
+  TimeSeries mean;
+  for (const Trace* channel : channels)
+    add(mean, {{channel->times().begin(), channel->times().end()}, channel->values}, 1.0);
+  if (mean.values.front() < 0.0) turn(mean);
+  return find_max_crush(mean.time_s, differentiate(mean.time_s, mean.values), mean.values,
+                        integrate(mean.time_s, mean.values, 0.0))
+      .t_m_s;
+}
+
+void set_t_m(const Source& source, const Names& velocities, const ForcingOptions& options, MeasuredForcing& out) {
+  out.forcing.t_m_s = options.t_m_s;
+  const std::vector<const Trace*> channels = source.pick(velocities);
+  if (!std::isnan(options.t_m_s) || channels.empty()) return;
+  for (const Trace* channel : channels)
+    if (channel->dimension != Dimension::speed)
+      throw InvalidInput(fmt::format("{}: measures {}; a velocity is needed", source.what(*channel),
+                                     dimension_name(channel->dimension)));
+  out.forcing.t_m_s = end_of_velocity(channels);
+  out.steps.push_back(std::isnan(out.forcing.t_m_s)
+                          ? "time of maximum crush: none, the velocity does not come to zero"
+                          : fmt::format("time of maximum crush: {:.6g} s, where the velocity ends", out.forcing.t_m_s));
+}
+
+/// Selectors, or the names that crashsim writes.
+Names or_own(const Names& selectors, bool is_default, const Source& source, const Names& own) {
+  if (!selectors.empty() || !is_default) return selectors;
+  Names found;
+  for (const std::string& name : own)
+    if (source.find(name) != nullptr) found.push_back(name);
+  return found;
+}
+
+}  // namespace
+
+MeasuredForcing read_forcing(const ForcingOptions& options) {
+  validate_options(options, "ForcingOptions");
+  const std::string& path = options.file;
+  const TraceSet set = read_traces(path, {{}, options.columns, options.units});
+  MeasuredForcing out;
+  out.input_files = set.input_files;
+  out.warnings = set.warnings;
+  const Source source(set, options, out);
+  const bool is_default = options.vertical_channels.empty() && options.longitudinal_channels.empty();
+  Names along = or_own(options.longitudinal_channels, is_default, source, {"longitudinal_force_n"});
+  if (along.empty()) along = or_own({}, is_default, source, {"spring_force_n", "damper_force_n"});
+  for (const Trace* trace : source.pick(or_own(options.vertical_channels, is_default, source, {"vertical_force_n"})))
+    add(out.forcing.vertical_force_n, source.force(*trace), options.vertical_sense == VerticalSense::up ? -1.0 : 1.0);
+  set_longitudinal(source, source.pick(along), options, path, out);
+  if (out.forcing.vertical_force_n.empty() && out.forcing.longitudinal_force_n.empty())
+    throw InvalidInput(
+        fmt::format("{}: say which channels are the vertical force (channel) or the longitudinal force "
+                    "(longitudinal); see crashsim info {}",
+                    path, path));
+  for (const Trace* trace : source.pick(or_own(options.height_channel, is_default, source, {"force_height_m"}))) {
+    if (trace->dimension != Dimension::length)
+      throw InvalidInput(fmt::format("{}: measures {}; a height in m is needed", source.what(*trace),
+                                     dimension_name(trace->dimension)));
+    if (!out.forcing.force_height_m.empty())
+      throw InvalidInput(fmt::format("{}: the height of the force is given twice: one channel or row_heights_m", path));
+    out.forcing.force_height_m = {{trace->times().begin(), trace->times().end()}, trace->values};
+  }
+  set_t_m(source, or_own(options.velocity_channels, true, source, {"velocity_mps"}), options, out);
+  return out;
+}
+
+PitchForcing forcing_of(const CrushResponse& response) {
+  PitchForcing forcing;
+  forcing.longitudinal_force_n.time_s = response.time_s;
+  for (std::size_t i = 0; i < response.time_s.size(); ++i)
+    forcing.longitudinal_force_n.values.push_back(response.spring_force_n[i] + response.damper_force_n[i]);
+  forcing.t_m_s = response.t_m_s;
+  return forcing;
+}
+
+}  // namespace crashsim

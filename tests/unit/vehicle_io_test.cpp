@@ -1,0 +1,75 @@
+#include <crashsim/vehicle_io.hpp>
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include <crashsim/error.hpp>
+
+#include "support/source_dir.hpp"
+#include "support/temp_dir.hpp"
+
+namespace crashsim {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr const char* kJson = R"({"title": "a car", "mass_kg": "1.5t", "pitch_inertia_kgm2": 2000,
+ "front_axle_m": 1.2, "rear_axle_m": "1400mm", "front_stiffness_n_per_m": 30000, "rear_stiffness_n_per_m": 20000,
+ "front_damping_ns_per_m": 1500, "rear_damping_ns_per_m": 3000, "per_wheel": true, "force_arm_m": null})";
+constexpr const char* kToml = R"(
+[vehicle]
+mass = "1.5 t"
+pitch_inertia = 2000
+front_axle = 1.2
+rear_axle = "1.4 m"
+front_stiffness = 30000
+rear_stiffness = 20000
+front_damping = 1500
+rear_damping = 3000
+per_wheel = true
+[pulse]
+file = "not read here"
+)";
+
+TEST(VehicleFile, SaysTheSameInJsonAndToml) {
+  const test::TempDir dir;
+  for (const auto& path : {dir.file("v.json", kJson), dir.file("v.toml", kToml)}) {
+    const HeavePitchModel vehicle = read_vehicle(path);
+    EXPECT_DOUBLE_EQ(vehicle.mass_kg, 1500.0) << path;
+    EXPECT_DOUBLE_EQ(vehicle.rear_axle_m, 1.4) << path;
+    EXPECT_DOUBLE_EQ(with_axle_values(vehicle).front_stiffness_n_per_m, 60e3) << path;
+    EXPECT_TRUE(std::isnan(vehicle.force_arm_m)) << path;
+  }
+}
+
+TEST(VehicleFile, HoldsThePublishedTable) {
+  const HeavePitchModel table = read_vehicle(std::string(test::source_dir()) + "/data/paper/table1.json");
+  EXPECT_EQ(table.mass_kg, 400.0);
+  EXPECT_EQ(table.pitch_inertia_kgm2, 1400.0);
+  EXPECT_EQ(table.front_axle_m + table.rear_axle_m, 2.4);
+  EXPECT_TRUE(table.per_wheel);
+}
+
+TEST(VehicleFile, IsRefusedWithKeyAndRule) {
+  const test::TempDir dir;
+  const auto refused = [&](const std::string& old, const std::string& now, const std::string& message) {
+    std::string text = kJson;
+    text.replace(text.find(old), old.size(), now);
+    const std::string path = dir.file("v.json", text);
+    EXPECT_THAT([&] { static_cast<void>(read_vehicle(path)); }, ThrowsMessage<InvalidInput>(HasSubstr(message)));
+  };
+  refused("\"1.5t\"", "-1", "mass_kg = -1 kg: must be > 0");
+  refused("\"1.5t\"", "\"1.5m\"", "'m' measures length, not mass");
+  refused("\"mass_kg\"", "\"masss_kg\"", "unknown name 'masss_kg', did you mean 'mass'");
+  refused("\"front_axle_m\": 1.2,", "", "front_axle_m is not set: give the centre of gravity to front axle in m");
+  refused("null}", "null", "v.json:3: is not JSON");
+  refused("true", "1", "per_wheel: must be true or false, not a whole number");
+  EXPECT_THAT([&] { static_cast<void>(read_vehicle(dir.path("none.json"))); },
+              ThrowsMessage<InvalidInput>(HasSubstr("no such file")));
+}
+
+}  // namespace
+}  // namespace crashsim
