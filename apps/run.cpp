@@ -120,6 +120,7 @@ class RunCommand : public Command {
       warn(result.pulse->warnings);
     }
     if (result.identification) report_fit(*result.identification);
+    for (const std::string& note : result.notes) say("  note: " + note);
     if (result.response.outcome != CrushOutcome::not_run) report_motion(result);
     for (const Prediction& prediction : result.predictions)
       say(fmt::format("prediction at {}: {}", prediction.name, prediction.response.brief_report()));

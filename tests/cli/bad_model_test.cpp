@@ -128,6 +128,17 @@ INSTANTIATE_TEST_SUITE_P(
                   {"c.toml:2: [pulse] file: must be text, not a whole number"}),
         case_text("case_unknown_choice", "[crush]\nlaw = \"plastic\"\n",
                   {"c.toml:2: [crush] law: unknown name 'plastic' (known: stiffness, force)"}),
+        case_text("case_restitution_of_elastic", "[crush]\nmodel = \"m.json\"\nrestitution = 0.1\n",
+                  {"c.toml: [crush] restitution goes with unloading = \"plastic\", this is \"elastic\""}),
+        case_text("case_restitution_out_of_range", "[crush]\nrestitution = 1.1\n",
+                  {"c.toml:2: [crush] restitution = 1.1: must be >= 0 and <= 1"}),
+        case_text("case_unloading_given_twice",
+                  "[crush]\nmodel = \"m.json\"\nunloading = \"plastic\"\nrestitution = 0.1\n"
+                  "unloading_stiffness = \"20 kN/mm\"\n",
+                  {"c.toml: [crush] has both unloading_stiffness and restitution: give one of them"}),
+        case_text("case_plastic_without_a_number", "[crush]\nmodel = \"m.json\"\nunloading = \"plastic\"\n",
+                  {"c.toml: [crush] unloading = \"plastic\": there is no pulse to take a restitution from: give "
+                   "restitution or unloading_stiffness"}),
         case_text("case_trace_missing", "[pulse]\nfile = \"none.csv\"\n", {"none.csv: no such file"}),
         case_text("case_model_missing", "[crush]\nmodel = \"none.json\"\n", {"none.json: no such file"}),
         case_text("case_model_and_further_pulses", "[crush]\nmodel = \"m.json\"\n[identify]\npulses = [\"t.csv\"]\n",
