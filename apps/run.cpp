@@ -126,6 +126,7 @@ class RunCommand : public Command {
       warn(result.pulse->warnings);
     }
     if (result.identification) report_fit(*result.identification);
+    for (const std::string& note : result.notes) say("  note: " + note);
     if (result.response.outcome != CrushOutcome::not_run) report_motion(result);
     if (result.forcing) {
       for (const std::string& step : result.forcing->steps) say("  " + step);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <crashsim/error.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/units.hpp>
@@ -31,6 +33,34 @@ bool identify_model(const Case& study, const Progress& progress, CaseResult& out
   out.identification = identify(pulses, options, progress);
   out.model = out.identification->model;
   return !out.identification->ordinates.empty();
+}
+
+/// What the case says of unloading; a plastic one without numbers has the restitution of the test.
+Unloading unloading_of(const Case& study, CaseResult& out) {
+  const CaseOptions& what = study.what;
+  Unloading unloading{what.unloading, what.bilateral, what.unloading_stiffness_n_per_m, what.restitution};
+  if (unloading.kind != UnloadingKind::plastic || !std::isnan(unloading.restitution) ||
+      !std::isnan(unloading.unloading_stiffness_n_per_m))
+    return unloading;
+  const std::string key = fmt::format("{}: [crush] unloading = \"plastic\"", study.path);
+  constexpr const char* kRemedy = "give restitution or unloading_stiffness";
+  if (!out.pulse) throw InvalidInput(fmt::format("{}: there is no pulse to take a restitution from: {}", key, kRemedy));
+  unloading.restitution = metrics_of(*out.pulse).restitution;
+  if (std::isnan(unloading.restitution))
+    throw InvalidInput(
+        fmt::format("{}: the pulse has no restitution, it ends before the rebound does: {}", key, kRemedy));
+  if (unloading.restitution > 1.0)
+    throw InvalidInput(
+        fmt::format("{}: the pulse's restitution = {:.4g} is above 1: {}", key, unloading.restitution, kRemedy));
+  out.notes.push_back(fmt::format("restitution {:.4g} of plastic unloading is the pulse's", unloading.restitution));
+  return unloading;
+}
+
+/// Unloading of a model that was read: its own where the case says nothing.
+void overrule(Unloading& own, const Unloading& asked) {
+  const bool bilateral = own.bilateral || asked.bilateral;
+  if (asked.kind != UnloadingKind::elastic) own = asked;
+  own.bilateral = bilateral;
 }
 
 TraceSet trace_set(std::string path, const std::vector<double>& time_s,
@@ -108,15 +138,16 @@ CaseResult run_case(const Case& study, const Progress& progress) {
   CaseResult out;
   if (!study.what.pulse_file.empty())
     out.pulse = read_case_pulse(study, study.what.pulse_file, study.what.impact_speed_mps, out);
+  const Unloading unloading = unloading_of(study, out);
   if (!study.what.model_file.empty()) {
     const std::string path = resolved(study, study.what.model_file);
     out.model = read_model(path);
     out.input_files.push_back(path);
     if (!std::isnan(study.what.mass_kg)) out.model.mass_kg = study.what.mass_kg;
-    out.model.unloading.bilateral = out.model.unloading.bilateral || study.what.bilateral;
+    overrule(out.model.unloading, unloading);
   } else if (identify_model(study, progress, out)) {
     out.model.extrapolation = study.what.extrapolation;
-    out.model.unloading = {study.what.unloading, study.what.bilateral};
+    out.model.unloading = unloading;
   } else {
     return out;
   }

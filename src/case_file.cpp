@@ -79,8 +79,20 @@ void check_speeds(const Case& study) {
   }
 }
 
+void check_unloading(const Case& study) {
+  const CaseOptions& what = study.what;
+  const bool has_stiffness = !std::isnan(what.unloading_stiffness_n_per_m), has_e = !std::isnan(what.restitution);
+  if (what.unloading != UnloadingKind::plastic && (has_stiffness || has_e))
+    throw InvalidInput(fmt::format(R"({}: [crush] {} goes with unloading = "plastic", this is "{}")", study.path,
+                                   has_e ? "restitution" : "unloading_stiffness", name_of(what.unloading)));
+  if (has_stiffness && has_e)
+    throw InvalidInput(
+        fmt::format("{}: [crush] has both unloading_stiffness and restitution: give one of them", study.path));
+}
+
 void check(const Case& study) {
   check_speeds(study);
+  check_unloading(study);
   if (study.what.pulse_file.empty() && study.what.model_file.empty())
     throw InvalidInput(
         fmt::format("{}: has neither [pulse] file nor [crush] model: name a trace to identify a model from, or a model "

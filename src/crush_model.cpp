@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <crashsim/option_values.hpp>
+
 #include "solver/crush_force.hpp"
 
 namespace crashsim {
@@ -20,7 +22,35 @@ ForceAxis spring_axis(const CrushModel& model) {
   return make_axis(model.spring.knots, model.law == CrushLaw::stiffness, model.extrapolation);
 }
 
+/// Unset, or finite and in the range.
+bool is_unset_or(double number, const Range& range) {
+  return std::isnan(number) || (std::isfinite(number) && detail::in_range(number, range));
+}
+
+void validate(const Unloading& unloading) {
+  const double k_u = unloading.unloading_stiffness_n_per_m, e = unloading.restitution;
+  if (!is_unset_or(k_u, positive()))
+    throw InvalidInput(fmt::format("CrushModel.unloading.unloading_stiffness_n_per_m = {} N/m: must be > 0", k_u));
+  if (!is_unset_or(e, between(0.0, 1.0)))
+    throw InvalidInput(fmt::format("CrushModel.unloading.restitution = {}: must be >= 0 and <= 1", e));
+  const int given = (std::isnan(k_u) ? 0 : 1) + (std::isnan(e) ? 0 : 1);
+  if (unloading.kind == UnloadingKind::plastic && given != 1)
+    throw InvalidInput(
+        fmt::format("CrushModel.unloading: kind plastic has {} unloading_stiffness_n_per_m {} restitution: give one",
+                    given == 0 ? "neither" : "both", given == 0 ? "nor" : "and"));
+  if (unloading.kind == UnloadingKind::elastic && given != 0)
+    throw InvalidInput(
+        fmt::format("CrushModel.unloading.{}: goes with kind plastic, this is elastic: choose plastic or leave it out",
+                    std::isnan(k_u) ? "restitution" : "unloading_stiffness_n_per_m"));
+}
+
 }  // namespace
+
+bool Unloading::operator==(const Unloading& other) const {
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  return kind == other.kind && bilateral == other.bilateral &&
+         same(unloading_stiffness_n_per_m, other.unloading_stiffness_n_per_m) && same(restitution, other.restitution);
+}
 
 void validate(const CrushModel& model) {
   if (!std::isfinite(model.mass_kg) || model.mass_kg <= 0.0)
@@ -32,6 +62,7 @@ void validate(const CrushModel& model) {
   const auto is_absent = [](const PiecewiseLinear& c) { return c.knots.empty() && c.ordinates.empty(); };
   if (!is_absent(model.spring)) validate(model.spring, "CrushModel.spring");
   if (!is_absent(model.damper)) validate(model.damper, "CrushModel.damper");
+  validate(model.unloading);
 }
 
 double spring_force(const CrushModel& model, double x) {

@@ -21,6 +21,7 @@ constexpr std::string_view kFormat = "crashsim.crush_model";
 constexpr int kVersionOfFormat = 1;
 constexpr std::string_view kSpringKnots = "knots_m", kDamperKnots = "knots_mps";
 constexpr std::string_view kDamperOrdinates = "ordinates_ns_per_m";
+constexpr std::string_view kReturnStiffness = "unloading_stiffness_n_per_m", kRestitution = "restitution";
 
 struct Key {
   std::string_view section, key, unit, doc, range, choices;
@@ -44,8 +45,10 @@ constexpr Key kKeys[] = {
     {"spring", "ordinates_n", "N", "force at the knots (law force)", ">= 0", ""},
     {"damper", "knots_mps", "m/s", "speed at the knots: first 0, increasing", "", ""},
     {"damper", "ordinates_ns_per_m", "N s/m", "damping at the knots", ">= 0", ""},
-    {"unloading", "kind", "", "path back", "", "elastic"},
+    {"unloading", "kind", "", "path back", "", "elastic, plastic"},
     {"unloading", "bilateral", "", "the barrier pulls, too: contact is never lost", "", "true, false"},
+    {"unloading", kReturnStiffness, "N/m", "plastic: slope of the line back; it or restitution", "> 0", ""},
+    {"unloading", kRestitution, "", "plastic: rebound velocity / impact speed", ">= 0 and <= 1", ""},
 };
 
 /// Keys of one table of the file.
@@ -108,6 +111,16 @@ void check_format(const Object& file, const std::string& path) {
                                    kVersionOfFormat));
 }
 
+Unloading read_unloading(const Object& json) {
+  json.allow_only(keys_of("unloading"));
+  Unloading unloading;
+  json.read_choice("kind", unloading.kind);
+  if (json.has("bilateral")) unloading.bilateral = detail::to_bool(json.option("bilateral"), json.name("bilateral"));
+  if (json.has(kReturnStiffness)) unloading.unloading_stiffness_n_per_m = json.number(kReturnStiffness);
+  if (json.has(kRestitution)) unloading.restitution = json.number(kRestitution);
+  return unloading;
+}
+
 CrushModel read(const Object& file) {
   file.allow_only(keys_of(""));
   CrushModel model;
@@ -117,18 +130,20 @@ CrushModel read(const Object& file) {
   file.read_choice("extrapolation", model.extrapolation);
   model.spring = read_curve(file, "spring", kSpringKnots, spring_ordinates(model.law));
   model.damper = read_curve(file, "damper", kDamperKnots, kDamperOrdinates);
-  if (file.has("unloading")) {
-    const Object unloading(file.get("unloading"), file.name("unloading"));
-    unloading.allow_only(keys_of("unloading"));
-    unloading.read_choice("kind", model.unloading.kind);
-    if (unloading.has("bilateral"))
-      model.unloading.bilateral = detail::to_bool(unloading.option("bilateral"), unloading.name("bilateral"));
-  }
+  if (file.has("unloading")) model.unloading = read_unloading(Object(file.get("unloading"), file.name("unloading")));
   return model;
 }
 
 Json curve_json(const PiecewiseLinear& curve, std::string_view knots, std::string_view ordinates) {
   return {{std::string(knots), json_numbers(curve.knots)}, {std::string(ordinates), json_numbers(curve.ordinates)}};
+}
+
+Json unloading_json(const Unloading& unloading) {
+  Json json = {{"kind", name_of(unloading.kind)}, {"bilateral", unloading.bilateral}};
+  if (!std::isnan(unloading.unloading_stiffness_n_per_m))
+    json[std::string(kReturnStiffness)] = unloading.unloading_stiffness_n_per_m;
+  if (!std::isnan(unloading.restitution)) json[std::string(kRestitution)] = unloading.restitution;
+  return json;
 }
 
 /// One number per ordinate, spring and damper apart, under the names of the curves.
@@ -213,7 +228,7 @@ std::string format_model(const CrushModel& model, const Identification* identifi
   json["extrapolation"] = name_of(model.extrapolation);
   if (!model.spring.knots.empty()) json["spring"] = curve_json(model.spring, kSpringKnots, spring_ordinates(model.law));
   if (!model.damper.knots.empty()) json["damper"] = curve_json(model.damper, kDamperKnots, kDamperOrdinates);
-  json["unloading"] = {{"kind", name_of(model.unloading.kind)}, {"bilateral", model.unloading.bilateral}};
+  json["unloading"] = unloading_json(model.unloading);
   if (identification != nullptr) json["identification"] = identification_json(*identification);
   if (record != nullptr) json["record"] = record_json(*record);
   return format_json(json);

@@ -36,10 +36,7 @@ class Recorder {
     last_tau_ = tau_end;
   }
 
-  void on_event(const Region&, const Region& after, double x, double) {
-    if (after.separated && std::isnan(absorbed_at_separation_))
-      absorbed_at_separation_ = spring_energy(problem_.force, x) + last_.dissipated_at(last_tau_);
-  }
+  void on_event(const Region&, const Region&, double, double) {}
 
   /// Adds the end of the motion unless it is a sample already.
   void finish() {
@@ -51,12 +48,7 @@ class Recorder {
     const double v = last_.v_at(last_tau_);
     out_.kinetic_energy_j = 0.5 * problem_.mass_kg * v * v;
     out_.dissipated_energy_j = last_.dissipated_at(last_tau_);
-    out_.spring_energy_j = spring_energy(problem_.force, last_.x_at(last_tau_));
-    if (last_region_.separated) {
-      // Nothing pulls on the structure any more: what the spring held goes into the damper.
-      out_.spring_energy_j = 0.0;
-      out_.dissipated_energy_j = absorbed_at_separation_;
-    }
+    out_.spring_energy_j = stored_energy(problem_, last_region_, last_.x_at(last_tau_));
   }
 
  private:
@@ -70,8 +62,7 @@ class Recorder {
     const RegionForce force = region_force(problem_, region);
     const double x = step.x_at(tau), v = step.v_at(tau);
     const double spring = value(force.spring, x), damper = value(force.damper, v);
-    const double absorbed =
-        region.separated ? absorbed_at_separation_ : spring_energy(problem_.force, x) + step.dissipated_at(tau);
+    const double absorbed = stored_energy(problem_, region, x) + step.dissipated_at(tau);
     const double half_mass = 0.5 * problem_.mass_kg;
     out_.time_s.push_back(t);
     out_.displacement_m.push_back(x);
@@ -88,7 +79,6 @@ class Recorder {
   StepPolynomial last_;
   Region last_region_;
   double last_tau_ = 0.0;
-  double absorbed_at_separation_ = kUnset;
 };
 
 double end_time(const SimulateOptions& options) {
@@ -134,6 +124,20 @@ MotionSummary run(const CrushProblem& problem, const SimulateOptions& options, d
   return summary;
 }
 
+/// What is wrong with a return line that gives back more than there is to give.
+std::string too_soft(const CrushProblem& problem, double force_n, double max_crush_m) {
+  const double least = softest_return(problem, force_n, max_crush_m);
+  const std::string why = fmt::format(
+      "from F_m = {:.6g} N at C = {:.6g} m a return line of {:.6g} N/m would give back more energy than was absorbed, "
+      "or "
+      "push ahead of the undeformed front",
+      force_n, max_crush_m, return_stiffness(problem, force_n));
+  if (!std::isnan(problem.unloading.unloading_stiffness_n_per_m))
+    return fmt::format("{}: unloading_stiffness_n_per_m must be at least {:.6g}", why, least);
+  const double most = force_n / (std::sqrt(least * problem.mass_kg) * problem.speed_mps);
+  return fmt::format("{}: restitution = {:.6g} must be at most {:.6g} here", why, problem.unloading.restitution, most);
+}
+
 void judge(const MotionSummary& summary, const CrushProblem& problem, CrushResponse& out) {
   out.t_m_s = summary.t_m_s;
   out.max_crush_m = summary.max_crush_m;
@@ -148,6 +152,9 @@ void judge(const MotionSummary& summary, const CrushProblem& problem, CrushRespo
         "at t = {:.6g} s the motion left the knots (x = {:.6g} m, v = {:.6g} m/s) and extrapolation is 'error': extend "
         "the curves or choose extrapolation 'constant'",
         summary.end_time_s, out.displacement_m.back(), out.velocity_mps.back());
+  } else if (summary.end == MotionEnd::unloading_too_soft) {
+    out.outcome = CrushOutcome::unloading_too_soft;
+    out.message = too_soft(problem, summary.max_crush_force_n, summary.max_crush_m);
   } else if (summary.end == MotionEnd::step_limit) {
     out.outcome = CrushOutcome::step_limit;
     out.message = fmt::format("{} steps reached only t = {:.6g} s: loosen rtol or check the model's ordinates",
@@ -182,7 +189,7 @@ CrushResponse simulate(const CrushModel& model, const SimulateOptions& options) 
   reserve(out, sample_count(options, end_time_s));
 
   const CrushForce force = make_force(model);
-  const CrushProblem problem{force, model.mass_kg, out.impact_speed_mps, model.unloading.bilateral};
+  const CrushProblem problem{force, model.mass_kg, out.impact_speed_mps, model.unloading};
   Recorder recorder(problem, options, out);
   try {
     const MotionSummary summary = run(problem, options, end_time_s, recorder, out.statistics);

@@ -55,7 +55,7 @@ Metrics metrics_of(const CrushResponse& response, double mass_kg) {
   if (std::isnan(response.separation_s)) return out;
   out.static_crush_m = response.static_crush_m;
   out.rebound_velocity_mps = response.rebound_velocity_mps;
-  out.restitution = -response.rebound_velocity_mps / speed;
+  out.restitution = std::fabs(response.rebound_velocity_mps) / speed;  // of 0: not -0
   return out;
 }
 

@@ -30,14 +30,16 @@ struct CaseOptions {
   std::string pulse_file;                                 ///< [pulse] file; "" when a model is only simulated.
   std::string model_file;                                 ///< [crush] model: used, nothing is identified.
   Extrapolation extrapolation = Extrapolation::constant;  ///< [crush] extrapolation, of a model identified here
-  UnloadingKind unloading = UnloadingKind::elastic;       ///< [crush] unloading
+  UnloadingKind unloading = UnloadingKind::elastic;       ///< [crush] unloading; plastic: of a model that was read, too
+  double unloading_stiffness_n_per_m = kUnset;            ///< [crush] unloading_stiffness
+  double restitution = kUnset;                            ///< [crush] restitution
   bool bilateral = false;                                 ///< [crush] bilateral
   std::vector<std::string> further_pulses;                ///< [identify] pulses: further tests of the same structure.
   std::vector<double> speeds_mps;                         ///< [predict] speeds
 
   bool operator==(const CaseOptions&) const = default;
 };
-inline constexpr std::array<Field<CaseOptions>, 10> kCaseFields = {{
+inline constexpr std::array<Field<CaseOptions>, 12> kCaseFields = {{
     {"title", "title", "", "what the study is about", &CaseOptions::title},
     {"mass_kg", "vehicle.mass", "kg", "test mass; default: the pulse file's or the model's", &CaseOptions::mass_kg,
      positive()},
@@ -48,7 +50,13 @@ inline constexpr std::array<Field<CaseOptions>, 10> kCaseFields = {{
     {"extrapolation", "crush.extrapolation", "",
      "what a curve does beyond its last knot; while it is identified the last ordinate is held",
      choice<&CaseOptions::extrapolation>()},
-    {"unloading", "crush.unloading", "", "behaviour after maximum crush", choice<&CaseOptions::unloading>()},
+    {"unloading", "crush.unloading", "", "behaviour after maximum crush; plastic overrules that of a model",
+     choice<&CaseOptions::unloading>()},
+    {"unloading_stiffness_n_per_m", "crush.unloading-stiffness", "N/m", "plastic: slope of the line back",
+     &CaseOptions::unloading_stiffness_n_per_m, positive()},
+    {"restitution", "crush.restitution", "",
+     "plastic: rebound velocity / impact speed; default, without unloading_stiffness: the pulse's",
+     &CaseOptions::restitution, between(0.0, 1.0)},
     {"bilateral", "crush.bilateral", "", "the barrier pulls, too: contact is never lost", &CaseOptions::bilateral},
     {"further_pulses", "identify.pulses", "", "further tests of the same structure, fitted together",
      &CaseOptions::further_pulses},
@@ -97,6 +105,7 @@ struct CaseResult {
   std::vector<Prediction> predictions;
   std::vector<NamedComparison> comparisons;  ///< "to_max_crush" and "whole_record"
   std::vector<std::string> input_files;
+  std::vector<std::string> notes;  ///< What the case did not say and was taken from elsewhere.
 
   /// True when every step gave a result to rely on.
   [[nodiscard]] bool usable() const;

@@ -22,19 +22,27 @@ inline constexpr std::string_view kExtrapolationNames[] = {"constant", "linear",
 template <>
 inline constexpr std::span<const std::string_view> enum_names<Extrapolation>{kExtrapolationNames};
 
-/// What the structure does after maximum crush: the same path back.
-enum class UnloadingKind { elastic };
-inline constexpr std::string_view kUnloadingKindNames[] = {"elastic"};
+/// What the structure does after maximum crush: the same path back, or down a straight line.
+enum class UnloadingKind { elastic, plastic };
+inline constexpr std::string_view kUnloadingKindNames[] = {"elastic", "plastic"};
 template <>
 inline constexpr std::span<const std::string_view> enum_names<UnloadingKind>{kUnloadingKindNames};
 
-/// Behaviour after maximum crush.
+/// Behaviour after maximum crush C. Plastic: the damper is off and the whole force is that of the return line,
+///     F = F_m - k_u (C - x),   F_m the force at C,
+/// so that contact is lost at the static crush C_s = C - F_m / k_u. One of k_u and e says how steep the line is:
+///     k_u = F_m^2 / (e^2 m v0^2)
+/// With e = 0 or F_m = 0 nothing comes back: contact is lost at C. A bilateral motion stays on the line and swings
+/// about C_s.
 struct Unloading {
   UnloadingKind kind = UnloadingKind::elastic;
   bool bilateral =
       false;  ///< False: contact is lost, for good, when the force would pull. True: the barrier pulls too.
+  double unloading_stiffness_n_per_m = kUnset;  ///< Plastic: k_u [N/m], > 0.
+  double restitution = kUnset;                  ///< Plastic: rebound velocity / impact speed e, 0..1.
 
-  bool operator==(const Unloading&) const = default;
+  /// Unset numbers are equal.
+  bool operator==(const Unloading& other) const;
 };
 
 /// One-degree-of-freedom crush, [Noorsumar2021] eq. (1)-(3):

@@ -46,15 +46,16 @@ inline constexpr std::span<const Field<SimulateOptions>> fields<SimulateOptions>
 
 /// How a simulation ended.
 enum class CrushOutcome {
-  not_run,          ///< Nothing computed yet.
-  completed,        ///< Maximum crush found, end time reached.
-  no_max_crush,     ///< v did not reach zero within the window: there is no t_m.
-  left_knot_range,  ///< Extrapolation `error`: the motion left a curve's knots.
-  step_limit,       ///< The integrator needed too many steps.
-  failed            ///< The integrator failed; see message.
+  not_run,             ///< Nothing computed yet.
+  completed,           ///< Maximum crush found, end time reached.
+  no_max_crush,        ///< v did not reach zero within the window: there is no t_m.
+  left_knot_range,     ///< Extrapolation `error`: the motion left a curve's knots.
+  unloading_too_soft,  ///< The plastic return line would give back more than was absorbed: the motion ends at t_m.
+  step_limit,          ///< The integrator needed too many steps.
+  failed               ///< The integrator failed; see message.
 };
-inline constexpr std::string_view kCrushOutcomeNames[] = {"not_run",         "completed",  "no_max_crush",
-                                                          "left_knot_range", "step_limit", "failed"};
+inline constexpr std::string_view kCrushOutcomeNames[] = {
+    "not_run", "completed", "no_max_crush", "left_knot_range", "unloading_too_soft", "step_limit", "failed"};
 template <>
 inline constexpr std::span<const std::string_view> enum_names<CrushOutcome>{kCrushOutcomeNames};
 
@@ -66,8 +67,8 @@ struct CrushResponse {
   std::vector<double> accel_mps2;         ///< dv/dt [m/s^2].
   std::vector<double> velocity_mps;       ///< [m/s]
   std::vector<double> displacement_m;     ///< Crush [m].
-  std::vector<double> spring_force_n;     ///< F_k [N].
-  std::vector<double> damper_force_n;     ///< F_c [N].
+  std::vector<double> spring_force_n;     ///< F_k [N]; after t_m of plastic unloading the return line's.
+  std::vector<double> damper_force_n;     ///< F_c [N]; 0 there.
   std::vector<double> energy_residual_j;  ///< Kinetic + absorbed - initial energy [J]; 0 up to the integration error.
   double impact_speed_mps = kUnset;       ///< Speed simulated [m/s].
   double t_m_s = kUnset;                  ///< Time of maximum crush [s].
@@ -77,7 +78,7 @@ struct CrushResponse {
   double rebound_velocity_mps = kUnset;   ///< Velocity at separation after maximum crush, <= 0 [m/s].
   double kinetic_energy_j = kUnset;       ///< At the end [J].
   double spring_energy_j = kUnset;        ///< Stored in the spring at the end [J].
-  double dissipated_energy_j = kUnset;    ///< Dissipated until the end [J].
+  double dissipated_energy_j = kUnset;    ///< Dissipated until the end, with what plastic crush keeps [J].
   SolverStatistics statistics;
 
   /// True when the arrays hold a motion to rely on.

@@ -218,7 +218,7 @@ double FitObjective::evaluate(std::span<const double> parameters, double smoothi
   double total = 0.0;
   TaylorStepper stepper(kTolerance, kDegree, false);
   for (const FitTarget& target : targets_) {
-    const CrushProblem problem{force_, target.mass_kg, target.impact_speed_mps, false};
+    const CrushProblem problem{force_, target.mass_kg, target.impact_speed_mps, {}};
     const double weight = target.factor / static_cast<double>(targets_.size());
     LossVisitor visitor(problem, target, static_cast<int>(spring_count_), {loss_, smoothing, !gradient.empty()}, weight,
                         gradient, sensitivity_x_, sensitivity_v_);
@@ -271,7 +271,7 @@ Eigen::MatrixXd FitObjective::jacobian(std::span<const double> parameters) {
   TaylorStepper stepper(kTolerance, kDegree, false);
   for (const FitTarget& target : targets_) {
     const auto count = 3 * static_cast<Eigen::Index>(target.time_s.size());
-    const CrushProblem problem{force_, target.mass_kg, target.impact_speed_mps, false};
+    const CrushProblem problem{force_, target.mass_kg, target.impact_speed_mps, {}};
     JacobianVisitor visitor(problem, target, static_cast<int>(spring_count_), jacobian.middleRows(first, count),
                             sensitivity_x_, sensitivity_v_);
     integrate_motion(problem, target.time_s.back(), false, stepper, visitor);

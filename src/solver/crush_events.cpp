@@ -1,5 +1,7 @@
 #include "solver/crush_events.hpp"
 
+#include "solver/return_line.hpp"
+
 namespace crashsim {
 namespace {
 
@@ -87,6 +89,7 @@ void cross_bounds(const ForceAxis& axis, int segment, const Coefficients& c, dou
 
 RegionForce region_force(const CrushProblem& problem, const Region& region) {
   if (region.separated) return {};
+  if (region.unloading) return {region.return_line, {}};
   return {problem.force.spring_polynomials[static_cast<std::size_t>(region.spring)],
           problem.force.damper_polynomials[static_cast<std::size_t>(region.damper)]};
 }
@@ -100,11 +103,14 @@ Event first_event(const CrushProblem& problem, const Region& region, const StepP
   Event event{EventKind::none, step.to, 0, 0.0};
   if (region.separated) return event;
   const double margin = kStateRounding * problem.speed_mps;
+  const bool bilateral = problem.unloading.bilateral;
+  if (region.unloading && bilateral) return event;  // one line to the end
   const SignChange change = sign_change(region_force(problem, region), step, margin);
-  if (!problem.bilateral && change.pulls_at_once)
+  if (!bilateral && change.pulls_at_once)
     event = {EventKind::separation, step.from, 0, 0.0};
   else if (change.tau < step.to)
-    event = {problem.bilateral ? EventKind::turn : EventKind::separation, change.tau, 0, 0.0};
+    event = {bilateral ? EventKind::turn : EventKind::separation, change.tau, 0, 0.0};
+  if (region.unloading) return event;
   cross_bounds(problem.force.damper, region.damper, step.v, margin, step, EventKind::damper_knot, event);
   cross_bounds(problem.force.spring, region.spring, step.x, margin * kCrashTime, step, EventKind::spring_knot, event);
   return event;
@@ -114,10 +120,20 @@ Region next_region(const CrushProblem& problem, const Region& region, const Even
   Region next = region;
   if (event.kind == EventKind::spring_knot) next.spring += event.direction;
   if (event.kind == EventKind::damper_knot) next.damper += event.direction;
-  const double margin = kStateRounding * problem.speed_mps;
-  next.separated = event.kind == EventKind::separation ||
-                   (!problem.bilateral && contact_force(region_force(problem, next), x, v, margin) < 0.0);
+  if (is_max_crush(event) && problem.unloading.kind == UnloadingKind::plastic) {
+    next.unloading = true;
+    next.return_line = return_line(problem, value(region_force(problem, region).spring, x), x);
+  }
+  if (event.kind == EventKind::separation) next.separated = true;
+  if (problem.unloading.bilateral || next.separated) return next;
+  const double force = contact_force(region_force(problem, next), x, v, kStateRounding * problem.speed_mps);
+  next.separated = next.unloading ? force <= 0.0 : force < 0.0;
   return next;
+}
+
+double stored_energy(const CrushProblem& problem, const Region& region, double x) {
+  if (region.separated) return 0.0;  // nothing pulls on the structure any more: what it held is lost
+  return region.unloading ? return_line_energy(region.return_line, x) : spring_energy(problem.force, x);
 }
 
 }  // namespace crashsim

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the motion is on the force's segments, and what ends a step early.
+/// Where the motion is on the force's segments or on the return line, and what ends a step early.
 
 #include "solver/crush_force.hpp"
 #include "solver/step_polynomial.hpp"
@@ -13,13 +13,15 @@ struct CrushProblem {
   const CrushForce& force;
   double mass_kg;
   double speed_mps;
-  bool bilateral;
+  Unloading unloading;
 };
 
 /// Segments the motion is in. Inside one region the force is one polynomial of x and v.
 struct Region {
   int spring = 0, damper = 0;
-  bool separated = false;  ///< Contact is lost: no force any more.
+  bool separated = false;   ///< Contact is lost: no force any more.
+  bool unloading = false;   ///< On the plastic return line, which is all the force there is.
+  Quadratic return_line{};  ///< Its force over x.
 };
 
 /// Polynomials of a region, none when separated.
@@ -44,7 +46,16 @@ Region initial_region(const CrushProblem& problem);
 /// First event of a step taken with the force of `region`; `none` at the step's end otherwise.
 Event first_event(const CrushProblem& problem, const Region& region, const StepPolynomial& step);
 
-/// Region after an event at state (x, v). A force that jumps to a pull loses contact.
+/// Maximum crush: v falls through zero.
+inline bool is_max_crush(const Event& event) {
+  return event.kind == EventKind::damper_knot && event.level == 0.0 && event.direction < 0;
+}
+
+/// Region after an event at state (x, v). A force that jumps to a pull loses contact; so does a return line that has
+/// nothing to give back.
 Region next_region(const CrushProblem& problem, const Region& region, const Event& event, double x, double v);
+
+/// Energy that the structure can give back from crush x.
+double stored_energy(const CrushProblem& problem, const Region& region, double x);
 
 }  // namespace crashsim

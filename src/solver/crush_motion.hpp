@@ -3,15 +3,16 @@
 /// only in how they make a step.
 
 #include "solver/crush_events.hpp"
+#include "solver/return_line.hpp"
 
 namespace crashsim {
 
 /// Why a motion ended.
-enum class MotionEnd { end_time, max_crush, left_knot_range, step_limit, diverged };
+enum class MotionEnd { end_time, max_crush, left_knot_range, unloading_too_soft, step_limit, diverged };
 
 struct MotionSummary {
   MotionEnd end = MotionEnd::end_time;
-  double t_m_s = kUnset, max_crush_m = kUnset;
+  double t_m_s = kUnset, max_crush_m = kUnset, max_crush_force_n = kUnset;
   double separation_s = kUnset, static_crush_m = kUnset, rebound_velocity_mps = kUnset;
   double end_time_s = 0.0;
   long steps = 0, events = 0;
@@ -58,12 +59,16 @@ MotionSummary integrate_motion(const CrushProblem& problem, double end_time_s, b
     const Region before = region;
     region = next_region(problem, before, event, x, v);
     visitor.on_event(before, region, x, v);
-    if (event.kind == EventKind::damper_knot && event.level == 0.0 && event.direction < 0 &&
-        std::isnan(summary.t_m_s)) {
+    if (is_max_crush(event) && std::isnan(summary.t_m_s)) {
       summary.t_m_s = t;
       summary.max_crush_m = x;
+      summary.max_crush_force_n = value(region_force(problem, before).spring, x);
       if (to_max_crush) {
         summary.end = MotionEnd::max_crush;
+        return summary;
+      }
+      if (region.unloading && returns_too_much(problem, region, x)) {
+        summary.end = MotionEnd::unloading_too_soft;
         return summary;
       }
     }
@@ -79,7 +84,10 @@ MotionSummary integrate_motion(const CrushProblem& problem, double end_time_s, b
       return summary;
     }
     if (t >= end_time_s) return summary;
-    stepper.restart(problem, region, t, x, v, step.dissipated_at(event.tau));
+    double dissipated = step.dissipated_at(event.tau);
+    if (region.unloading != before.unloading || region.separated)
+      dissipated += stored_energy(problem, before, x) - stored_energy(problem, region, x);
+    stepper.restart(problem, region, t, x, v, dissipated);
   }
   summary.end = MotionEnd::step_limit;
   return summary;

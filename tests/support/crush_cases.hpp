@@ -97,4 +97,15 @@ inline CrushModel random_crush_model(Random& random) {
   return model;
 }
 
+/// Plastic unloading, by restitution or by stiffness.
+inline void make_plastic(CrushModel& model, Random& random) {
+  model.unloading.kind = UnloadingKind::plastic;
+  if (random.whole(0, 1) == 0) {
+    model.unloading.restitution = random.between(0.05, 1.0);
+  } else {
+    const double frequency = random.between(20.0, 400.0);  // 1/s
+    model.unloading.unloading_stiffness_n_per_m = model.mass_kg * frequency * frequency;
+  }
+}
+
 }  // namespace crashsim::test

@@ -1,6 +1,7 @@
 #pragma once
 /// Reference solution of the crush model that shares no code with the library's solvers: Gragg-Bulirsch-Stoer
-/// extrapolation in long double, started anew at every knot, turning point and loss of contact.
+/// extrapolation in long double, started anew at every knot, turning point and loss of contact. On the return line of
+/// plastic unloading the motion is the closed form of a linear spring.
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,8 @@ namespace crashsim::test {
 struct CrushReference {
   std::vector<double> displacement_m, velocity_mps, accel_mps2, spring_force_n, damper_force_n;
   double t_m_s = kUnset, max_crush_m = kUnset, separation_s = kUnset;
+  double return_end_m = kUnset,
+         return_speed_mps = kUnset;  ///< Where the return line's force vanishes, and speed there.
 };
 
 /// One curve as a force: ordinate(|s|) s, or ordinate(|s|) sign(s), evaluated on the line of a piece wherever s is.
@@ -85,6 +88,7 @@ class CrushReferenceSolver {
       : spring_(model.spring, model.law == CrushLaw::stiffness, model.extrapolation),
         damper_(model.damper, true, model.extrapolation),
         mass_(model.mass_kg),
+        unloading_(model.unloading),
         bilateral_(model.unloading.bilateral),
         length_(0.05L * speed),
         speed_(speed),
@@ -162,6 +166,7 @@ class CrushReferenceSolver {
       t_ = end;
       return;
     }
+    if (returning_) return run_back(end);
     const Real h = std::min(h_, end - t_);
     Real error = 0.0L;
     const State next = step(h, &error);
@@ -261,11 +266,35 @@ class CrushReferenceSolver {
       if (y_.v == 0.0L && event.direction < 0 && std::isnan(out_.t_m_s)) {
         out_.t_m_s = static_cast<double>(t_);
         out_.max_crush_m = static_cast<double>(y_.x);
+        if (unloading_.kind == UnloadingKind::plastic) return turn_back();
       }
     } else if (!bilateral_) {
       separate();
     }
     lose_contact_if_pulled();
+  }
+
+  void turn_back() {
+    const Real force = spring_.force(spring_piece_, y_.x);
+    const Real e = unloading_.restitution;
+    return_stiffness_ = std::isnan(unloading_.restitution) ? Real(unloading_.unloading_stiffness_n_per_m)
+                                                           : force * force / (e * e * mass_ * speed_ * speed_);
+    const Real swing = force / return_stiffness_;
+    return_end_ = y_.x - swing;
+    out_.return_end_m = static_cast<double>(return_end_);
+    out_.return_speed_mps = static_cast<double>(swing * std::sqrt(return_stiffness_ / mass_));
+    returning_ = true;
+  }
+  void run_back(Real end) {
+    constexpr Real kQuarterTurn = 1.570796326794896619231321691639751442L;
+    const Real frequency = std::sqrt(return_stiffness_ / mass_);
+    const Real swing = static_cast<Real>(out_.max_crush_m) - return_end_;
+    const Real angle = frequency * (end - static_cast<Real>(out_.t_m_s));
+    const bool lets_go = !bilateral_ && angle >= kQuarterTurn;
+    y_ = {return_end_ + (lets_go ? 0.0L : swing * std::cos(angle)),
+          -swing * frequency * (lets_go ? 1.0L : std::sin(angle))};
+    t_ = lets_go ? static_cast<Real>(out_.t_m_s) + kQuarterTurn / frequency : end;
+    if (lets_go) separate();
   }
 
   void lose_contact_if_pulled() {
@@ -277,8 +306,9 @@ class CrushReferenceSolver {
   }
 
   void record() {
-    const Real spring = separated_ ? 0.0L : spring_.force(spring_piece_, y_.x);
-    const Real damper = separated_ ? 0.0L : damper_.force(damper_piece_, y_.v);
+    const Real line = return_stiffness_ * (y_.x - return_end_);
+    const Real spring = separated_ ? 0.0L : returning_ ? line : spring_.force(spring_piece_, y_.x);
+    const Real damper = separated_ || returning_ ? 0.0L : damper_.force(damper_piece_, y_.v);
     out_.displacement_m.push_back(static_cast<double>(y_.x));
     out_.velocity_mps.push_back(static_cast<double>(y_.v));
     out_.accel_mps2.push_back(static_cast<double>(-(spring + damper) / mass_));
@@ -288,11 +318,13 @@ class CrushReferenceSolver {
 
   ReferenceCurve spring_, damper_;
   Real mass_;
+  Unloading unloading_;
   bool bilateral_;
   Real length_, speed_;
   State y_;
   ReferenceCurve::Piece spring_piece_{}, damper_piece_;
-  bool separated_ = false;
+  bool separated_ = false, returning_ = false;
+  Real return_stiffness_ = 0.0L, return_end_ = 0.0L;
   Real t_ = 0.0L, h_ = kLongestStep;
   CrushReference out_;
 };

@@ -44,6 +44,8 @@ t0 = "5ms"
 [crush]
 law = "force"
 knots = [0, 0.2, 0.7]
+unloading = "plastic"
+unloading_stiffness = "20 kN/mm"
 bilateral = true
 [identify]
 starts = 3
@@ -94,6 +96,7 @@ TEST(Case, EveryKeyCanBeSetAndIsRecorded) {
     const std::string line = key.key + " = " + text + "\n";
     std::string toml = key.section.empty() ? line : fmt::format("[{}]\n{}", key.section, line);
     if (key.section == "pulse" && key.key != "file") toml += "file = \"t.csv\"\n";
+    if (key.key == "unloading_stiffness" || key.key == "restitution") toml += "unloading = \"plastic\"\n";
     if (key.section != "pulse") toml += kPulseOnly;
     const Case study = read_case(dir.file("case.toml", toml));
     EXPECT_EQ(entry_of(entries_of(study), key).value, value) << toml;
@@ -123,6 +126,9 @@ TEST(Case, OptionsGoWhereTheyBelong) {
   EXPECT_EQ(study.identify.weights, (Setting<Weights>{Weights::given, {1.0, 2.0, 0.5}}));
   EXPECT_THAT(study.what.further_pulses, ElementsAre("u.csv", "../v.csv"));
   EXPECT_TRUE(study.what.bilateral);
+  EXPECT_EQ(study.what.unloading, UnloadingKind::plastic);
+  EXPECT_EQ(study.what.unloading_stiffness_n_per_m, 2e7);
+  EXPECT_THAT(study.what.restitution, testing::IsNan());
   EXPECT_EQ(study.simulation.dt_s, 0.001);
   EXPECT_EQ(study.comparison.end_s, 0.1);
   EXPECT_THAT(study.what.speeds_mps, ElementsAre(testing::DoubleEq(40.0 / 3.6), 12.0));
@@ -265,6 +271,59 @@ TEST(RunCase, TheSimulatedCrushForcePitchesAVehicleThatSaysItsHeights) {
   EXPECT_FALSE(result.forcing.has_value());
   EXPECT_THAT([&] { static_cast<void>(run_case(read_case(dir.file("b.toml", text)))); },
               testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("force_height_m is not set")));
+}
+
+/// SYN_A unloaded plastically, beside the pulse of the finite-element car.
+std::string plastic_case(const std::string& crush) {
+  return fmt::format(
+      "[pulse]\nfile = \"{0}/fe-car/C56.csv\"\nchannels = [\"LEFT_REAR_VX\"]\n"
+      "[crush]\nmodel = \"{0}/syn-a/model.json\"\nunloading = \"plastic\"\n{1}",
+      kData, crush);
+}
+
+TEST(RunCase, PlasticUnloadingTakesTheRestitutionOfThePulse) {
+  const test::TempDir dir;
+  const CaseResult result = run_case(read_case(dir.file("case.toml", plastic_case(""))));
+  const double e = metrics_of(*result.pulse).restitution;
+  EXPECT_EQ(result.model.unloading, (Unloading{UnloadingKind::plastic, false, kUnset, e}));
+  EXPECT_NEAR(-result.response.rebound_velocity_mps, e * result.response.impact_speed_mps, 1e-6);
+  EXPECT_THAT(result.notes, ElementsAre(HasSubstr("restitution 0.0")));
+
+  const CaseResult given = run_case(read_case(dir.file("given.toml", plastic_case("restitution = 0.25\n"))));
+  EXPECT_EQ(given.model.unloading, (Unloading{UnloadingKind::plastic, false, kUnset, 0.25}));
+  EXPECT_THAT(given.notes, IsEmpty());
+}
+
+TEST(RunCase, PlasticUnloadingWithoutARestitutionIsRefused) {
+  const test::TempDir dir;
+  Case study = read_case(dir.file("case.toml", plastic_case("")));
+  std::string until_max_crush = "# mass_kg = 1000\n# impact_speed_mps = 10\ntime_s,accel_mps2\n";
+  for (int i = 0; i <= 100; ++i) until_max_crush += fmt::format("{:.4f},{}\n", 1e-3 * i, i == 0 ? 0 : -105);
+  study.what.pulse_file = dir.file("short.csv", until_max_crush);
+  study.pulse.channels.clear();
+  EXPECT_THAT(
+      [&] { run_case(study); },
+      ThrowsMessage<InvalidInput>(HasSubstr(
+          "case.toml: [crush] unloading = \"plastic\": the pulse has no restitution, it ends before the rebound "
+          "does: give restitution or unloading_stiffness")));
+  study.what.pulse_file.clear();
+  EXPECT_THAT([&] { run_case(study); },
+              ThrowsMessage<InvalidInput>(HasSubstr("there is no pulse to take a restitution from: give restitution")));
+}
+
+TEST(RunCase, AModelKeepsItsPlasticUnloadingUntilTheCaseSaysOther) {
+  const test::TempDir dir;
+  CrushModel model;
+  model.mass_kg = 1500.0;
+  model.impact_speed_mps = 15.0;
+  model.spring = {{0.0}, {1e6}};
+  model.unloading = {UnloadingKind::plastic, false, kUnset, 0.3};
+  dir.file("m.json", format_model(model));
+  const std::string crush = "[crush]\nmodel = \"m.json\"\n";
+  EXPECT_EQ(run_case(read_case(dir.file("a.toml", crush))).model.unloading, model.unloading);
+  const std::string stiffer = "unloading = \"plastic\"\nunloading_stiffness = 1e8\n";
+  EXPECT_EQ(run_case(read_case(dir.file("b.toml", crush + stiffer))).model.unloading,
+            (Unloading{UnloadingKind::plastic, false, 1e8, kUnset}));
 }
 
 TEST(RunCase, CanBeStopped) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "support/crush_cases.hpp"
@@ -50,6 +51,42 @@ TEST(CrushModel, RefusesBadCurves) {
   expect_refused([](CrushModel& m) { m.spring.ordinates.pop_back(); },
                  "CrushModel.spring: 7 knots but 6 ordinates: the numbers must be equal");
   expect_refused([](CrushModel& m) { m.damper.knots.clear(); }, "CrushModel.damper: has no knots");
+}
+
+TEST(CrushModel, RefusesBadUnloading) {
+  const auto plastic = [](double stiffness, double restitution) {
+    return [=](CrushModel& m) { m.unloading = {UnloadingKind::plastic, false, stiffness, restitution}; };
+  };
+  expect_refused(
+      plastic(kUnset, kUnset),
+      "CrushModel.unloading: kind plastic has neither unloading_stiffness_n_per_m nor restitution: give one");
+  expect_refused(plastic(1e7, 0.1),
+                 "CrushModel.unloading: kind plastic has both unloading_stiffness_n_per_m and restitution: give one");
+  for (const double stiffness : {0.0, -3.0})
+    expect_refused(plastic(stiffness, kUnset),
+                   fmt::format("CrushModel.unloading.unloading_stiffness_n_per_m = {} N/m: must be > 0", stiffness));
+  for (const double restitution : {-0.1, 1.5})
+    expect_refused(plastic(kUnset, restitution),
+                   fmt::format("CrushModel.unloading.restitution = {}: must be >= 0 and <= 1", restitution));
+  expect_refused(plastic(std::numeric_limits<double>::infinity(), kUnset), "unloading_stiffness_n_per_m = inf N/m");
+  expect_refused([](CrushModel& m) { m.unloading.restitution = 0.1; },
+                 "CrushModel.unloading.restitution: goes with kind plastic, this is elastic: choose plastic or leave");
+  expect_refused([](CrushModel& m) { m.unloading.unloading_stiffness_n_per_m = 1e7; },
+                 "CrushModel.unloading.unloading_stiffness_n_per_m: goes with kind plastic, this is elastic");
+  CrushModel model = test::syn_a();
+  for (const double restitution : {0.0, 1.0}) {
+    plastic(kUnset, restitution)(model);
+    EXPECT_NO_THROW(validate(model));
+  }
+}
+
+TEST(CrushModel, UnloadingIsEqualWhenTheSameNumbersAreUnset) {
+  const Unloading elastic, plastic{UnloadingKind::plastic, false, kUnset, 0.1};
+  EXPECT_EQ(elastic, Unloading());
+  EXPECT_EQ(plastic, Unloading(plastic));
+  EXPECT_NE(plastic, (Unloading{UnloadingKind::plastic, true, kUnset, 0.1}));
+  EXPECT_NE(plastic, (Unloading{UnloadingKind::plastic, false, kUnset, 0.2}));
+  EXPECT_NE(plastic, (Unloading{UnloadingKind::plastic, false, 0.1, kUnset}));
 }
 
 TEST(CrushModel, NeedsASpringOrADamper) {

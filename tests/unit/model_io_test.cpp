@@ -34,6 +34,10 @@ CrushModel random_model(test::Random& random) {
   model.law = random.whole(0, 1) == 1 ? CrushLaw::force : CrushLaw::stiffness;
   model.extrapolation = static_cast<Extrapolation>(random.whole(0, 2));
   model.unloading.bilateral = random.whole(0, 1) == 1;
+  const int unloading = random.whole(0, 2);
+  if (unloading > 0) model.unloading.kind = UnloadingKind::plastic;
+  if (unloading == 1) model.unloading.restitution = random.between(0.0, 1.0);
+  if (unloading == 2) model.unloading.unloading_stiffness_n_per_m = random.between(1.0, 1e9);
   const int curves = random.whole(0, 2);
   if (curves != 1) model.spring = random_curve(random, 0.2, 1e7);
   if (curves != 2) model.damper = random_curve(random, 4.0, 1e5);
@@ -83,8 +87,21 @@ TEST(ModelFile, NeedsLittleWhenWrittenByHand) {
   EXPECT_THAT(model.impact_speed_mps, testing::IsNan());
   EXPECT_EQ(model.law, CrushLaw::stiffness);
   EXPECT_EQ(model.extrapolation, Extrapolation::constant);
-  EXPECT_FALSE(model.unloading.bilateral);
+  EXPECT_EQ(model.unloading, Unloading());
   EXPECT_TRUE(model.spring.knots.empty());
+}
+
+TEST(ModelFile, SaysHowPlasticUnloadingGoes) {
+  const test::TempDir dir;
+  const auto unloading = [&](const std::string& keys) {
+    return read_model(dir.file("m.json", R"({"format": "crashsim.crush_model", "version": 1, "mass_kg": 1500,
+        "spring": {"knots_m": [0], "ordinates_n_per_m": [1e6]}, "unloading": {"kind": "plastic", )" +
+                                             keys + "}}"))
+        .unloading;
+  };
+  EXPECT_EQ(unloading("\"restitution\": 0.15"), (Unloading{UnloadingKind::plastic, false, kUnset, 0.15}));
+  EXPECT_EQ(unloading("\"unloading_stiffness_n_per_m\": 1e7, \"restitution\": null, \"bilateral\": true"),
+            (Unloading{UnloadingKind::plastic, true, 1e7, kUnset}));
 }
 
 TEST(ModelFile, CarriesIdentificationAndRecordThatAreNotRead) {

@@ -71,6 +71,16 @@ TEST(Summarize, NumbersOfASimulationAreThoseOfItsEvents) {
   EXPECT_EQ(m.energy_j, 0.5 * 1500.0 * 15.0 * 15.0);
 }
 
+TEST(Summarize, AReboundOfNothingHasRestitution0) {
+  CrushModel model = spring_of(1e6);
+  model.unloading.kind = UnloadingKind::plastic;
+  model.unloading.restitution = 0.0;
+  const Metrics m = metrics_of(simulate(model), 1500.0);
+  EXPECT_EQ(m.restitution, 0.0);
+  EXPECT_FALSE(std::signbit(m.restitution));
+  EXPECT_EQ(m.static_crush_m, m.max_crush_m);
+}
+
 /// The last sample is the maximum crush itself, where sampled velocity may not quite have reached zero.
 TEST(Summarize, ASimulationToMaximumCrushHasAllNumbersOfIt) {
   SimulateOptions options;

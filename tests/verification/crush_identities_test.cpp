@@ -121,6 +121,22 @@ TEST_P(CrushIdentities, EnergyLedgerClosesAtEverySample) {
   }
 }
 
+TEST_P(CrushIdentities, EnergyLedgerClosesThroughPlasticUnloading) {
+  test::Random random(35);
+  int separated = 0;
+  for (int i = 0; i < 150; ++i) {
+    CrushModel model = test::random_crush_model(random);
+    test::make_plastic(model, random);
+    const double impact = impact_energy(model);
+    const CrushResponse r = simulate(model, options(SimulateOptions{}.rtol));
+    for (std::size_t j = 0; j < r.time_s.size(); ++j)
+      ASSERT_NEAR(r.energy_residual_j[j], 0.0, kLedger * impact) << "model " << i << " at " << r.time_s[j] << " s";
+    EXPECT_NEAR(r.kinetic_energy_j + r.spring_energy_j + r.dissipated_energy_j, impact, kLedger * impact);
+    separated += r.separation_s > r.t_m_s ? 1 : 0;
+  }
+  EXPECT_GT(separated, 30);
+}
+
 TEST_P(CrushIdentities, DissipatedEnergyIsTheDampersWork) {
   // The ledger's residual is made of the model's own energies: here the work is summed from the samples.
   SimulateOptions options = CrushIdentities::options();

@@ -171,6 +171,42 @@ TEST(CrushReference, RandomModels) {
   EXPECT_GT(separated, kModels / 2);       // and most rebound freely
 }
 
+TEST(CrushReference, RandomPlasticModels) {
+  constexpr double kNearLimit = 1e-3;  // relative: what is nearer to the limit may fall on either side of it
+  test::Random random(43);
+  int completed = 0, refused = 0, swinging = 0;
+  for (int i = 0; i < kModels / 2; ++i) {
+    CrushModel model = test::random_crush_model(random);
+    test::make_plastic(model, random);
+    const std::vector<double> times = sample_times(model);
+    const double speed = model.impact_speed_mps;
+    const test::CrushReference reference = test::reference_motion(model, speed, times);
+    const CrushResponse record = simulate(model, with(Integrator::cvode, kTightestRtol, times));
+    const CrushResponse kernel = simulate(model, with(Integrator::taylor, kTightRtol, times));
+    EXPECT_EQ(record.outcome, kernel.outcome) << "model " << i;
+    const double margin =
+        std::min(reference.return_end_m / reference.max_crush_m, 1.0 - reference.return_speed_mps / speed);
+    if (margin < kNearLimit) {
+      EXPECT_TRUE(margin > -kNearLimit || kernel.outcome == CrushOutcome::unloading_too_soft) << "model " << i;
+      ++refused;
+      continue;
+    }
+    EXPECT_LT(worst_difference(kernel, reference), kKernel) << "model " << i;
+    EXPECT_LT(worst_difference(kernel, record), kKernelGate) << "model " << i;
+    if (!record.usable()) continue;
+    ++completed;
+    if (std::isnan(record.separation_s)) {
+      swinging += model.unloading.bilateral ? 1 : 0;
+      continue;
+    }
+    EXPECT_NEAR(kernel.static_crush_m, reference.return_end_m, kKernel * reference.max_crush_m) << "model " << i;
+    EXPECT_NEAR(kernel.rebound_velocity_mps, -reference.return_speed_mps, kKernel * speed) << "model " << i;
+  }
+  EXPECT_GT(completed, kModels / 8);
+  EXPECT_GT(refused, kModels / 50);
+  EXPECT_GT(swinging, kModels / 50);
+}
+
 TEST(CrushReference, TaylorKernelAgainstCvode) {
   test::Random random(42);
   for (int i = 0; i < kModels; ++i) {

@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include <crashsim/case.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/trace_io.hpp>
@@ -70,6 +71,31 @@ TEST_P(FeCar, ThePulseOfTheRearNodesCrushesAsTheyMove) {
   double crush_m = 0.0;
   for (std::size_t i = 0; i < left.size(); ++i) crush_m = std::max(crush_m, -0.5 * (left[i] + right[i]));
   EXPECT_NEAR(pulse.max_crush_m, crush_m, kFilteredCrush * crush_m);
+}
+
+TEST(FeCarCase, ReboundsAsTheCarWhenUnloadedPlastically) {
+  constexpr double kRebound = 0.2;       // solver: relative, model against the nodes' own velocity
+  constexpr double kStaticCrush = 0.03;  // solver: relative
+  const std::string folder = std::string(test::source_dir()) + "/data/fe-car/";
+  const TraceSet set = read_traces(folder + "C56.csv");
+  const auto& left = set.traces.at(select_channels(set, "LEFT_REAR_VX").at(0)).values;
+  const auto& right = set.traces.at(select_channels(set, "RIGHT_REAR_VX").at(0)).values;
+  double rebound_mps = 0.0;
+  for (std::size_t i = 0; i < left.size(); ++i) rebound_mps = std::max(rebound_mps, 0.5 * (left[i] + right[i]));
+
+  Case study = read_case(folder + "case.toml");
+  study.identify.starts = 1;
+  study.what.speeds_mps.clear();
+  const CaseResult elastic = run_case(study);
+  study.what.unloading = UnloadingKind::plastic;
+  const CaseResult plastic = run_case(study);
+  ASSERT_TRUE(plastic.usable()) << plastic.response.message;
+  EXPECT_EQ(plastic.model.spring, elastic.model.spring);  // identification does not look beyond maximum crush
+  EXPECT_EQ(plastic.model.damper, elastic.model.damper);
+  EXPECT_NEAR(-plastic.response.rebound_velocity_mps, rebound_mps, kRebound * rebound_mps);
+  EXPECT_GT(-elastic.response.rebound_velocity_mps, (1.0 + kRebound) * rebound_mps);
+  const double static_crush_m = metrics_of(*plastic.pulse).static_crush_m;
+  EXPECT_NEAR(plastic.response.static_crush_m, static_crush_m, kStaticCrush * static_crush_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(Runs, FeCar, testing::Values(Run{"C40", 11.111}, Run{"C56", 15.64}));
