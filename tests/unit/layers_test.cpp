@@ -57,6 +57,7 @@ const std::map<std::string, Layer> kLayers = {
     {"heave_pitch_model", models},
     {"solver/crush_force", models},
 
+    {"pitch_input", simulation},
     {"simulate", simulation},
     {"simulate_pitch", simulation},
     {"solver/", simulation},
