@@ -1,6 +1,7 @@
 #pragma once
 /// The whole public interface.
 
+#include <crashsim/body_motion.hpp>
 #include <crashsim/case.hpp>
 #include <crashsim/comparison.hpp>
 #include <crashsim/config.hpp>

@@ -45,6 +45,7 @@ const std::map<std::string, Layer> kLayers = {
     {"units", base},
     {"version", base},
 
+    {"body_motion", signals},
     {"io/", signals},
     {"pulse", signals},
     {"pulse_channels", signals},
