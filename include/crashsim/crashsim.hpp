@@ -11,6 +11,7 @@
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
 #include <crashsim/identify_options.hpp>
+#include <crashsim/identify_pitch.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/named_number.hpp>

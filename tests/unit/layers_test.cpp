@@ -74,6 +74,7 @@ const std::map<std::string, Layer> kLayers = {
 
     {"identify", identification},
     {"identify_options", identification},
+    {"identify_pitch", identification},
     {"optimize/", identification},
 
     {"batch", pipeline},
