@@ -14,7 +14,8 @@
 
 namespace crashsim {
 
-/// Measured motion on the forcing's clock, each channel at its own times. At least one is needed.
+/// Measured motion on the forcing's clock, each channel at its own times; samples before the motion starts are not
+/// compared. At least one channel is needed.
 struct PitchTarget {
   TimeSeries heave_m;             ///< z, up positive, from static equilibrium [m].
   TimeSeries pitch_rad;           ///< theta, nose-down positive [rad].

@@ -76,18 +76,17 @@ PitchEquation::PitchEquation(const HeavePitchModel& model, std::span<const Pitch
       arm_(set_or_zero(model.force_arm_m)),
       cg_height_(set_or_zero(model.cg_height_m)),
       force_height_(set_or_zero(model.force_height_m)) {
+  set_matrices(model, parameters);
+  set_degree(longest_step_s);
+}
+
+void PitchEquation::set_matrices(const HeavePitchModel& model, std::span<const PitchParameter> parameters) {
   const LinearSystem system = linear_system(model);
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
       stiffness_.a[i][j] = system.stiffness(i, j);
       damping_.a[i][j] = system.damping(i, j);
     }
-  set_derivatives(model, parameters);
-  set_degree(longest_step_s);
-}
-
-void PitchEquation::set_derivatives(const HeavePitchModel& model, std::span<const PitchParameter> parameters) {
-  const LinearSystem system = linear_system(model);
   const Eigen::Matrix2d per_mass = mass_matrix(model).inverse();
   for (std::size_t lane = 0; lane < parameters.size(); ++lane) {
     const PitchParameter& p = parameters[lane];

@@ -56,7 +56,7 @@ class PitchEquation {
     double value[2][3];
     Lanes slope[2][3];
   };
-  void set_derivatives(const HeavePitchModel& model, std::span<const PitchParameter> parameters);
+  void set_matrices(const HeavePitchModel& model, std::span<const PitchParameter> parameters);
   void set_degree(double longest_step_s);
   void accelerations(const ForceTerms& forces, Accelerations& out) const;
   void step(const Accelerations& forces, double step_s, State& state) const;

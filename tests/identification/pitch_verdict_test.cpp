@@ -59,6 +59,46 @@ TEST(PitchVerdict, EqualRatiosOfStiffnessToDampingHideTheAxles) {
   EXPECT_FALSE(fit.verdict.identifiable);
 }
 
+M free_body() {
+  M body = test::vehicle_with_heights();
+  body.front_stiffness_n_per_m = body.rear_stiffness_n_per_m = 0.0;
+  body.front_damping_ns_per_m = body.rear_damping_ns_per_m = 0.0;
+  return body;
+}
+
+TEST(PitchVerdict, AFreeBodyShowsOnlyTheRatioOfArmAndInertia) {
+  const PitchIdentification fit = refit(free_body(), test::vertical_half_sine(), 0.3, {"force_arm", "pitch_inertia"});
+  EXPECT_EQ(fit.verdict.rank, 1);
+  EXPECT_THAT(fit.verdict.message, HasSubstr("changing force_arm_m by +1 %, pitch_inertia_kgm2 by +1 % together"));
+  EXPECT_TRUE(refit(free_body(), test::vertical_half_sine(), 0.3, {"pitch_inertia"}).verdict.identifiable);
+}
+
+/// With theta'' = F l_Q / J and no noise, the sensitivity of theta to ln J is -theta: one number, its error closed
+/// form.
+TEST(PitchVerdict, TheStandardErrorOfAFreeBodysInertiaIsTheClosedForm) {
+  constexpr double kClosedForm = 1e-9;  // rounding: of sums over the record
+  constexpr double kOff = 0.01;         // of the pitch, by turns
+  const M truth = free_body();
+  PitchTarget target;
+  target.pitch_rad = test::target_of(simulate_pitch(truth, test::vertical_half_sine(), test::to(0.3))).pitch_rad;
+  std::vector<double>& pitch = target.pitch_rad.values;
+  for (std::size_t i = 0; i < pitch.size(); ++i) pitch[i] *= i % 2 == 0 ? 1.0 + kOff : 1.0 - kOff;
+  IdentifyPitchOptions options;
+  options.free = {"pitch_inertia"};
+  options.loss = Loss::l2;
+  options.starts = 1;
+  const PitchIdentification fit = identify_pitch(truth, test::vertical_half_sine(), target, test::to(0.3), options);
+  const M& found = fit.model;
+  const std::vector<double> model = simulate_pitch(found, test::vertical_half_sine(), test::to(0.3)).pitch_rad;
+  double residuals = 0.0, sensitivities = 0.0;
+  for (std::size_t i = 0; i < pitch.size(); ++i) {
+    residuals += (model[i] - pitch[i]) * (model[i] - pitch[i]);
+    sensitivities += model[i] * model[i] / (found.pitch_inertia_kgm2 * found.pitch_inertia_kgm2);
+  }
+  const double expected = std::sqrt(residuals / static_cast<double>(pitch.size() - 1) / sensitivities);
+  EXPECT_NEAR(fit.parameters[0].standard_error, expected, kClosedForm * expected);
+}
+
 TEST(PitchVerdict, NamesWhatNoSampleDependsOn) {
   const PitchIdentification fit =
       refit(test::vehicle_with_heights(), test::vertical_half_sine(), 0.5, {"rear_damping", "force_height"});
@@ -82,9 +122,7 @@ TEST(PitchVerdict, WithoutForceNothingDependsOnTheSuspension) {
 
 /// A body that is hardly held for the time of the record: stiffness between 0 and 1e6 N/m fits noise as well.
 TEST(PitchVerdict, NoiseLeavesTheStiffnessOfAFreeBodyOpen) {
-  M truth = test::oracle_vehicle();
-  truth.front_stiffness_n_per_m = truth.rear_stiffness_n_per_m = 0.0;
-  truth.front_damping_ns_per_m = truth.rear_damping_ns_per_m = 0.0;
+  const M truth = free_body();
   const PitchForcing forcing = test::vertical_half_sine();
   PitchTarget target = test::target_of(simulate_pitch(truth, forcing, test::to(0.08)));
   test::Random random(5);
