@@ -154,11 +154,12 @@ TEST_P(PitchGradient, OfRandomModelsIsThatOfComplexSteps) {
     M model = test::random_vehicle(random);
     model.formulation = how.formulation;
     model.per_wheel = how.per_wheel;
-    PitchForcing forcing{test::random_series(random, -0.01, 0.1, 9, -1e4, 6e4),
-                         test::random_series(random, 0.0, 0.12, 7, 0.0, 4e5),
+    const int knots = how.samples < 10 ? 3 : 9;
+    PitchForcing forcing{test::random_series(random, -0.01, 0.1, knots, -1e4, 6e4),
+                         test::random_series(random, 0.0, 0.12, knots, 0.0, 4e5),
                          {},
                          kUnset};
-    if (how.height_series) forcing.force_height_m = test::random_series(random, 0.01, 0.09, 5, 0.3, 0.8);
+    if (how.height_series) forcing.force_height_m = test::random_series(random, 0.01, 0.09, knots, 0.3, 0.8);
     const PitchTarget target = {test::random_series(random, 0.0, 0.3, how.samples, -0.1, 0.1),
                                 test::random_series(random, 0.0, 0.2, how.samples, -0.1, 0.1),
                                 test::random_series(random, 0.0, 0.3, how.samples, -2.0, 2.0),
@@ -197,6 +198,37 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"as_printed", Loss::l2, 0.0, PitchFormulation::as_printed, true, true, 40},
                     Case{"steps_longer_than_the_series_converges", Loss::l2, 0.0, kDerived, false, true, 3}),
     [](const auto& c) { return std::string(c.param.name); });
+
+/// Steps from a small part of a period to several, under forces that are parabolas.
+TEST(PitchEquation, StepsAreThoseOfTheExponential) {
+  constexpr double kExact = 1e-12;  // rounding: relative, of both series and up to a hundred parts of a step
+  test::Random random(72);
+  const auto series = [&random](double size) {
+    return ForceSeries{random.between(-size, size), random.between(-30.0 * size, 30.0 * size),
+                       random.between(-900.0 * size, 900.0 * size)};
+  };
+  for (int i = 0; i < 200; ++i) {
+    const M model = test::random_vehicle(random);
+    const double step_s = std::pow(10.0, random.between(-4.0, -0.5));
+    const ForceTerms terms{series(5e4), series(5e4), series(5e4), series(5e4), series(5e4)};
+    PitchEquation::State state;
+    PitchState start;
+    for (std::size_t j = 0; j < 4; ++j)
+      state.value[j] = start[static_cast<Eigen::Index>(j)] = random.between(-1.0, 1.0) * (j < 2 ? 0.1 : 1.0);
+    PitchEquation(model, {}, step_s).advance(terms, step_s, state);
+    ForcePiece piece;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const double moment = terms.moment[n] + model.force_arm_m * terms.by_arm[n] +
+                            model.cg_height_m * terms.by_cg_height[n] + model.force_height_m * terms.by_force_height[n];
+      piece.col(static_cast<Eigen::Index>(n)) << terms.heave[n] / model.mass_kg, moment / model.pitch_inertia_kgm2;
+    }
+    piece.col(2) *= 2.0;
+    const PitchState exact = Propagator(linear_system(model), 0.0).step(start, piece, step_s);
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_NEAR(state.value[j], exact[static_cast<Eigen::Index>(j)], kExact * exact.cwiseAbs().maxCoeff())
+          << "model " << i << ", " << step_s << " s";
+  }
+}
 
 /// At the model that made the target all residuals vanish, and the squared loss's Hessian is 2 J'J.
 TEST(PitchJacobian, IsTheHessianOfTheSquaredLossWithoutResiduals) {
