@@ -131,7 +131,7 @@ void judge(const Study& study, const PitchObjective& objective, std::span<const 
   out.model = with_values(study.first, study.parameters, values);
   record_error(study, objective.evaluate(values, 0.0, {}), out);
   const Eigen::MatrixXd jacobian = objective.jacobian(values);
-  const double freedom = static_cast<double>(jacobian.rows() - jacobian.cols());
+  const auto freedom = static_cast<double>(jacobian.rows() - jacobian.cols());
   const double variance = study.objective(Loss::l2).evaluate(values, 0.0, {}) / freedom;
   PitchIdentifiability found = judge_pitch(study.parameters, values, jacobian, variance);
   out.verdict = std::move(found.verdict);
