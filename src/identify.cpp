@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include <crashsim/simulate.hpp>
 
 #include "optimize/equation_error.hpp"
+#include "optimize/identifiability.hpp"
 #include "optimize/multistart.hpp"
 #include "optimize/verdict.hpp"
 #include "solver/crush_motion.hpp"
@@ -18,7 +20,6 @@
 namespace crashsim {
 namespace {
 
-constexpr double kBest = 1e-3;         // starts within this of the best E, relative, are at the best
 constexpr double kAgreement = 1e-6;    // between the Taylor kernel's E and CVODE's
 constexpr double kLeastError = 1e-3;   // E below which the agreement is absolute
 constexpr double kBoundFactor = 2.0;   // spring or damper alone may carry this much of the measured force
@@ -161,17 +162,6 @@ bool errors_agree(double kernel, double record) {
   return std::fabs(kernel - record) <= kAgreement * std::max(record, kLeastError);
 }
 
-/// Index of the best start, -1 when all failed; ties go to the first.
-int best_start(const std::vector<StartResult>& results) {
-  int best = -1;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const StartReport& report = results[i].report;
-    if (report.evaluations == 0 || report.failed) continue;
-    if (best < 0 || report.error < results[static_cast<std::size_t>(best)].report.error) best = static_cast<int>(i);
-  }
-  return best;
-}
-
 /// What an identification is made from.
 struct Study {
   const IdentifyOptions& options;
@@ -204,7 +194,7 @@ void judge(const Study& study, std::span<double> parameters, Identification& out
   const auto& [options, targets, structure, upper] = study;
   FitObjective objective(structure, targets, options.loss, options.smooth);
   const Eigen::MatrixXd jacobian = objective.jacobian(parameters);
-  if (options.smooth == 0.0) hold_untouched(structure, touched_ordinates(jacobian, upper), parameters);
+  if (options.smooth == 0.0) hold_untouched(structure, touched_columns(jacobian, upper), parameters);
   out.model = make_model(structure, parameters, targets.front().mass_kg, targets.front().impact_speed_mps);
   record_error(study, parameters, out);
   FitObjective squared(structure, targets, Loss::l2, 0.0);
@@ -219,25 +209,21 @@ void judge(const Study& study, std::span<double> parameters, Identification& out
 
 /// Takes the starts into the result. @returns the best one's parameters, none when every start failed.
 std::vector<double> take_starts(const std::vector<StartResult>& results, Identification& out) {
-  const int best = best_start(results);
-  for (const StartResult& result : results) {
-    if (result.report.evaluations == 0) continue;
-    out.starts.push_back(result.report);
-    out.evaluations += result.report.evaluations;
-    if (best >= 0 && result.report.error <= (1.0 + kBest) * results[static_cast<std::size_t>(best)].report.error)
-      ++out.starts_at_best;
-  }
+  StartSummary summary = summarize_starts(results, 0.0);
+  out.starts = std::move(summary.reports);
+  out.starts_at_best = summary.at_best;
+  out.evaluations = summary.evaluations;
   if (out.starts.size() < results.size()) {
     out.outcome = IdentifyOutcome::interrupted;
     out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
-  } else if (best < 0) {
+  } else if (summary.best < 0) {
     out.outcome = IdentifyOutcome::every_start_failed;
     out.message = fmt::format(
         "all {} starts failed: their simulations did not reach the end of the pulse within {} steps: check the pulse's "
         "times and units, or lower the bounds",
         results.size(), kStepLimit);
   }
-  return best < 0 ? std::vector<double>() : results[static_cast<std::size_t>(best)].parameters;
+  return summary.best < 0 ? std::vector<double>() : results[static_cast<std::size_t>(summary.best)].parameters;
 }
 
 std::vector<double> find_parameters(const Study& study, const Progress& progress, Identification& out) {

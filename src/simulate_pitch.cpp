@@ -11,6 +11,7 @@
 #include <crashsim/option_values.hpp>
 #include <crashsim/signal.hpp>
 
+#include "pitch_input.hpp"
 #include "solver/pitch_peaks.hpp"
 
 namespace crashsim {
@@ -18,43 +19,8 @@ namespace {
 
 constexpr double kDefaultEnd = 0.3;  // [s]
 constexpr double kMaxSamples = 1e8;
-constexpr double kNegligibleForce = 0.01;  // of the largest: what may be cut off unnoticed
 constexpr double kLongestStepAngle = 0.1;  // of the fastest motion, so that peaks between samples are found [rad]
 constexpr double kFewestSteps = 100.0, kMostDivisions = 20000.0;
-
-void check(const TimeSeries& series, std::string_view name) {
-  if (!series.empty()) check_series(series.time_s, series.values, fmt::format("PitchForcing.{}", name), 2);
-}
-
-/// @throws InvalidInput when a series is bad or the model lacks what the forcing needs.
-void check(const HeavePitchModel& model, const PitchForcing& forcing) {
-  check(forcing.vertical_force_n, "vertical_force_n");
-  check(forcing.longitudinal_force_n, "longitudinal_force_n");
-  check(forcing.force_height_m, "force_height_m");
-  if (model.formulation == PitchFormulation::as_printed) return;
-  using M = HeavePitchModel;
-  if (!forcing.vertical_force_n.empty())
-    require_set(model, &M::force_arm_m, "HeavePitchModel", "there is a vertical force");
-  if (forcing.longitudinal_force_n.empty()) return;
-  require_set(model, &M::cg_height_m, "HeavePitchModel", "there is a longitudinal force");
-  if (forcing.force_height_m.empty())
-    require_set(model, &M::force_height_m, "HeavePitchModel",
-                "there is a longitudinal force without a series of its height");
-}
-
-/// @throws InvalidInput when the rule needs what is not there.
-double start_time(const PitchForcing& forcing, const PitchOptions& options) {
-  if (options.start.rule == PitchStart::impact) return 0.0;
-  if (options.start.rule == PitchStart::given) {
-    const auto& numbers = options.start.numbers;
-    if (numbers.size() == 1 && std::isfinite(numbers[0])) return numbers[0];
-    throw InvalidInput(fmt::format("PitchOptions.start = {}: must be one finite time in s", fmt::join(numbers, ",")));
-  }
-  if (std::isfinite(forcing.t_m_s)) return forcing.t_m_s;
-  throw InvalidInput(
-      "PitchOptions.start = t_m: PitchForcing.t_m_s, the time of maximum crush, is not set: give it, or start = impact "
-      "or a time");
-}
 
 /// Uniform times from `first` and the end; the last interval may be shorter.
 /// @throws InvalidInput when there would be too many.
@@ -67,34 +33,6 @@ std::vector<double> sample_times(double first_s, double end_s, double dt_s) {
   std::vector<double> times = uniform_times(first_s, dt_s, static_cast<std::size_t>(intervals) + 1);
   times.back() = end_s;
   return times;
-}
-
-void note_cut_force(const TimeSeries& force, std::string_view name, double start_s, double end_s,
-                    std::vector<std::string>& notes) {
-  if (force.empty()) return;
-  double largest = 0.0;
-  for (const double f : force.values) largest = std::max(largest, std::abs(f));
-  const auto note = [&](double t, double f, std::string_view verb, std::string_view side) {
-    if (t <= start_s || t >= end_s || std::abs(f) <= kNegligibleForce * largest) return;
-    notes.push_back(fmt::format("{} {} at {:.6g} s with {:.6g} N, {:.0f} % of its largest: it is zero {} that", name,
-                                verb, t, f, 100.0 * std::abs(f) / largest, side));
-  };
-  note(force.time_s.front(), force.values.front(), "begins", "before");
-  note(force.time_s.back(), force.values.back(), "ends", "after");
-}
-
-std::vector<std::string> notes_on(const HeavePitchModel& model, const PitchForcing& forcing, double start_s,
-                                  double end_s) {
-  std::vector<std::string> notes;
-  note_cut_force(forcing.vertical_force_n, "vertical_force_n", start_s, end_s, notes);
-  note_cut_force(forcing.longitudinal_force_n, "longitudinal_force_n", start_s, end_s, notes);
-  if (model.formulation == PitchFormulation::derived) return notes;
-  notes.emplace_back("as_printed: the vertical force acts at a lever arm of 1 m, whatever force_arm_m says");
-  if (!forcing.longitudinal_force_n.empty())
-    notes.emplace_back("as_printed: the longitudinal force is not in the printed equations and is left out");
-  if (!is_dissipative(model))
-    notes.emplace_back("as_printed: the damping matrix is not positive semidefinite: some motions gain energy");
-  return notes;
 }
 
 /// What the motion is at one output time.
@@ -177,8 +115,8 @@ void run(PitchResponse& r, const HeavePitchModel& model, const PitchOptions& opt
 PitchResponse simulate_pitch(const HeavePitchModel& model, const PitchForcing& forcing, const PitchOptions& options) {
   validate(model);
   validate_options(options, "PitchOptions");
-  check(model, forcing);
-  const double start_s = start_time(forcing, options);
+  check_pitch_input(model, forcing);
+  const double start_s = start_of_motion(forcing, options);
   const double end_s = std::isnan(options.end_time_s) ? kDefaultEnd : options.end_time_s;
   if (end_s <= start_s)
     throw InvalidInput(
@@ -187,7 +125,7 @@ PitchResponse simulate_pitch(const HeavePitchModel& model, const PitchForcing& f
   PitchResponse response;
   response.start_time_s = start_s;
   response.modes = modes(model);
-  response.notes = notes_on(model, forcing, start_s, end_s);
+  response.notes = notes_on_pitch_input(model, forcing, start_s, end_s);
   response.time_s = sample_times(std::min(0.0, start_s), end_s, options.dt_s);
   const auto first = std::ranges::lower_bound(response.time_s, start_s - time_rounding(start_s, end_s));
   const std::span samples(first, response.time_s.end());

@@ -1,6 +1,7 @@
 #pragma once
 /// The whole public interface.
 
+#include <crashsim/body_motion.hpp>
 #include <crashsim/case.hpp>
 #include <crashsim/comparison.hpp>
 #include <crashsim/config.hpp>
@@ -11,6 +12,7 @@
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
 #include <crashsim/identify_options.hpp>
+#include <crashsim/identify_pitch.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/named_number.hpp>

@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+
+#include "optimize/identifiability.hpp"
 
 namespace crashsim {
 namespace {
 
 using Eigen::Index;
 
-constexpr double kUntouched = 1e-9;        // column norm, relative to the largest scaled by its bound
-constexpr double kRankTolerance = 1e-8;    // singular value, relative to the largest
 constexpr double kWellConditioned = 50.0;  // one speed gives 125 with 7 + 7 knots, two speeds 10
 constexpr double kSeparable = 0.999;       // cosine between the closest directions of spring and damper
 constexpr double kAtBound = 1e-6;          // relative to the upper bound
@@ -71,57 +72,7 @@ std::vector<OrdinateReport> describe(const FitStructure& structure, std::span<co
   return reports;
 }
 
-/// Columns of unit length: sensitivities of what is determined, by samples or smoothing.
-struct ScaledColumns {
-  std::vector<std::size_t> ordinates;
-  std::size_t springs = 0;  ///< So many of them belong to the spring.
-  Eigen::MatrixXd columns;
-  Eigen::VectorXd norms;
-};
-
-ScaledColumns scale_columns(const FitStructure& structure, const Eigen::VectorXd& upper,
-                            const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& roughness) {
-  Eigen::MatrixXd stacked(jacobian.rows() + roughness.rows(), jacobian.cols());
-  stacked << jacobian, roughness;
-  const std::vector<bool> determined = touched_ordinates(stacked, upper);
-  ScaledColumns scaled;
-  for (std::size_t i = 0; i < determined.size(); ++i) {
-    if (!determined[i]) continue;
-    scaled.ordinates.push_back(i);
-    if (i < structure.spring_knots.size()) ++scaled.springs;
-  }
-  const auto count = static_cast<Index>(scaled.ordinates.size());
-  scaled.columns.resize(stacked.rows(), count);
-  scaled.norms.resize(count);
-  for (Index j = 0; j < count; ++j) {
-    const auto column = stacked.col(static_cast<Index>(scaled.ordinates[static_cast<std::size_t>(j)]));
-    scaled.norms[j] = column.norm();
-    scaled.columns.col(j) = column / scaled.norms[j];
-  }
-  return scaled;
-}
-
-void set_covariance(const ScaledColumns& scaled, const Eigen::MatrixXd& covariance, double variance,
-                    Identifiability& out) {
-  const Index count = scaled.norms.size();
-  for (Index i = 0; i < count; ++i) {
-    const std::size_t row = scaled.ordinates[static_cast<std::size_t>(i)];
-    out.ordinates[row].standard_error = std::sqrt(variance * covariance(i, i)) / scaled.norms[i];
-    for (Index j = 0; j < count; ++j)
-      out.correlation[row][scaled.ordinates[static_cast<std::size_t>(j)]] =
-          covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
-  }
-}
-
 }  // namespace
-
-std::vector<bool> touched_ordinates(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& upper) {
-  const Eigen::VectorXd sizes = jacobian.colwise().norm().transpose().cwiseProduct(upper);
-  const double largest = sizes.maxCoeff();
-  std::vector<bool> touched;
-  for (const double size : sizes) touched.push_back(size > kUntouched * largest);
-  return touched;
-}
 
 void hold_untouched(const FitStructure& structure, const std::vector<bool>& touched, std::span<double> parameters) {
   const auto hold = [&](std::size_t first, std::size_t count) {
@@ -144,31 +95,31 @@ void hold_untouched(const FitStructure& structure, const std::vector<bool>& touc
 Identifiability judge_identifiability(const FitStructure& structure, std::span<const double> parameters,
                                       const Eigen::VectorXd& upper, const Eigen::MatrixXd& jacobian,
                                       const Eigen::MatrixXd& roughness, double residual_variance, std::size_t tests) {
-  const std::size_t n = parameters.size();
-  const std::vector<bool> touched = touched_ordinates(jacobian, upper);
+  const std::vector<bool> touched = touched_columns(jacobian, upper);
+  Eigen::MatrixXd stacked(jacobian.rows() + roughness.rows(), jacobian.cols());
+  stacked << jacobian, roughness;
+  const ColumnAnalysis analysis = analyse_columns(stacked, upper);
+  const std::vector<std::size_t>& determined = analysis.determined;
+  Uncertainty uncertainty = uncertainty_of(analysis, residual_variance);
   Identifiability out;
   out.ordinates = describe(structure, parameters, upper, touched);
-  out.correlation.assign(n, std::vector<double>(n, kUnset));
-  const ScaledColumns scaled = scale_columns(structure, upper, jacobian, roughness);
-  const auto count = static_cast<Index>(scaled.ordinates.size());
-  if (count == 0) {
+  for (std::size_t i = 0; i < out.ordinates.size(); ++i)
+    out.ordinates[i].standard_error = uncertainty.standard_errors[i];
+  out.correlation = std::move(uncertainty.correlation);
+  if (determined.empty()) {
     out.verdict.message = "no sample depends on any ordinate";
     return out;
   }
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled.columns, Eigen::ComputeThinV);
-  const Eigen::VectorXd& sigma = svd.singularValues();
-  const auto springs = static_cast<Index>(scaled.springs);
-  out.verdict.rank = static_cast<int>((sigma.array() > kRankTolerance * sigma[0]).count());
-  out.verdict.condition = sigma[0] / sigma[count - 1];
+  const auto count = static_cast<Index>(determined.size());
+  const Index springs = std::ranges::lower_bound(determined, structure.spring_knots.size()) - determined.begin();
+  out.verdict.rank = analysis.rank;
+  out.verdict.condition = analysis.condition;
   out.verdict.spring_damper_cosine =
-      largest_cosine(scaled.columns.leftCols(springs), scaled.columns.rightCols(count - springs));
+      largest_cosine(analysis.columns.leftCols(springs), analysis.columns.rightCols(count - springs));
   out.verdict.identifiable =
-      out.verdict.rank == count && scaled.ordinates.size() == n && out.verdict.condition <= kWellConditioned;
+      analysis.has_full_rank() && determined.size() == parameters.size() && analysis.condition <= kWellConditioned;
   const auto untouched = static_cast<std::size_t>(std::count(touched.begin(), touched.end(), false));
   out.verdict.message = explain(out.verdict, count, untouched, tests);
-  if (out.verdict.rank < count) return out;  // no covariance
-  const Eigen::MatrixXd half = svd.matrixV() * sigma.cwiseInverse().asDiagonal();
-  set_covariance(scaled, half * half.transpose(), residual_variance, out);
   return out;
 }
 

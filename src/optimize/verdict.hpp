@@ -16,9 +16,6 @@ struct Identifiability {
   std::vector<std::vector<double>> correlation;
 };
 
-/// Which ordinates some sample depends on.
-std::vector<bool> touched_ordinates(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& upper);
-
 /// Gives ordinates that no sample depends on the value of the nearest one on their curve that some sample does: a curve
 /// goes on as it was last seen.
 void hold_untouched(const FitStructure& structure, const std::vector<bool>& touched, std::span<double> parameters);

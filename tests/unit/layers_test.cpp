@@ -46,6 +46,7 @@ const std::map<std::string, Layer> kLayers = {
     {"units", base},
     {"version", base},
 
+    {"body_motion", signals},
     {"io/", signals},
     {"pulse", signals},
     {"pulse_channels", signals},
@@ -59,6 +60,7 @@ const std::map<std::string, Layer> kLayers = {
     {"solver/crush_force", models},
 
     {"forcing", simulation},
+    {"pitch_input", simulation},
     {"simulate", simulation},
     {"simulate_pitch", simulation},
     {"solver/", simulation},
@@ -74,6 +76,7 @@ const std::map<std::string, Layer> kLayers = {
 
     {"identify", identification},
     {"identify_options", identification},
+    {"identify_pitch", identification},
     {"optimize/", identification},
 
     {"batch", pipeline},

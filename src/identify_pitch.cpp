@@ -1,0 +1,172 @@
+#include <crashsim/identify_pitch.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <crashsim/option_values.hpp>
+
+#include "optimize/pitch_objective.hpp"
+#include "optimize/pitch_verdict.hpp"
+#include "optimize/starts.hpp"
+#include "pitch_input.hpp"
+
+namespace crashsim {
+namespace {
+
+constexpr double kAgreement = 1e-6;   // between the fit's E and the engine's of record
+constexpr double kLeastError = 1e-3;  // E below which the agreement is absolute
+constexpr double kNoError = 1e-9;     // E of a perfect fit
+
+/// What an identification is made from. All but the starts is checked here.
+struct Study {
+  HeavePitchModel first;  ///< The given model with the values of start 0.
+  const PitchForcing& forcing;
+  const PitchOptions& simulation;
+  const IdentifyPitchOptions& options;
+  std::vector<PitchParameter> parameters;
+  PitchFitTarget target;
+
+  Study(const HeavePitchModel& guess, const PitchForcing& forces, const PitchTarget& measured,
+        const PitchOptions& simulated, const IdentifyPitchOptions& how, std::vector<std::string>& warnings)
+      : first(guess), forcing(forces), simulation(simulated), options(how) {
+    validate_options(how, "IdentifyPitchOptions");
+    validate_options(simulated, "PitchOptions");
+    parameters = pitch_parameters(guess, how, warnings);
+    for (const PitchParameter& parameter : parameters) first.*parameter.member = parameter.first;
+    validate(first);
+    check_pitch_input(first, forcing);
+    target = make_pitch_target(forcing, measured, simulated, how);
+    if (target.samples.size() <= parameters.size())
+      throw InvalidInput(fmt::format("PitchTarget: {} samples cannot determine {} parameters: free fewer or give more",
+                                     target.samples.size(), parameters.size()));
+    const auto notes = notes_on_pitch_input(first, forcing, target.start_s, target.times.back());
+    warnings.insert(warnings.end(), notes.begin(), notes.end());
+  }
+
+  [[nodiscard]] PitchObjective objective(Loss loss) const { return {first, forcing, target, parameters, loss}; }
+
+  [[nodiscard]] std::vector<double> values_at(std::span<const double> point) const {
+    std::vector<double> values(point.size());
+    for (std::size_t i = 0; i < point.size(); ++i) values[i] = parameters[i].value_at(point[i]);
+    return values;
+  }
+
+  [[nodiscard]] std::vector<double> initial_point(int index) const {
+    std::vector<double> point(parameters.size());
+    for (std::size_t i = 0; i < point.size(); ++i)
+      point[i] = index == 0 ? parameters[i].place_of(parameters[i].first)
+                            : uniform_random(options.seed, static_cast<std::uint64_t>(index), i);
+    return point;
+  }
+};
+
+std::vector<StartResult> run_all_starts(const Study& study, const PitchObjective& objective, const Progress& progress) {
+  const IdentifyPitchOptions& options = study.options;
+  StartPlan plan{options.starts, options.jobs, options.loss, options.algorithm, {}, {}};
+  plan.make_function = [&] {
+    return [&](std::span<const double> point, double smoothing, std::span<double> gradient) {
+      const std::vector<double> values = study.values_at(point);
+      const double error = objective.evaluate(values, smoothing, gradient);
+      for (std::size_t i = 0; i < values.size(); ++i) gradient[i] *= study.parameters[i].slope_at(values[i]);
+      return error;
+    };
+  };
+  plan.initial_point = [&study](int index) { return study.initial_point(index); };
+  return run_starts(plan, progress);
+}
+
+/// Takes the starts into the result. @returns the best one's values, none when every start failed.
+std::vector<double> take_starts(const Study& study, const std::vector<StartResult>& results, PitchIdentification& out) {
+  StartSummary summary = summarize_starts(results, kNoError);
+  out.starts = std::move(summary.reports);
+  out.starts_at_best = summary.at_best;
+  out.evaluations = summary.evaluations;
+  if (out.starts.size() < results.size()) {
+    out.outcome = IdentifyOutcome::interrupted;
+    out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
+  } else if (summary.best < 0) {
+    out.outcome = IdentifyOutcome::every_start_failed;
+    out.message = fmt::format(
+        "all {} starts failed: the motion grows beyond all bounds before the last sample, at {:g} s: check units, "
+        "bounds and formulation",
+        results.size(), study.target.times.back());
+  }
+  if (summary.best < 0) return {};
+  return study.values_at(results[static_cast<std::size_t>(summary.best)].parameters);
+}
+
+/// E as the engine of record simulates the model, and whether the fit agrees.
+void record_error(const Study& study, double fitted, PitchIdentification& out) {
+  const PitchFitTarget& target = study.target;
+  const LinearSystem system = linear_system(out.model);
+  const PitchGrid grid =
+      make_grid(out.model, study.forcing, target.start_s, target.times, std::numeric_limits<double>::infinity());
+  std::vector<PitchState> states{target.initial};
+  const PitchWork work = study.simulation.integrator == PitchIntegrator::cvode
+                             ? integrate_by_cvode(system, grid, study.simulation.rtol, states)
+                             : integrate_by_propagator(system, grid, states);
+  if (work.outcome != PitchOutcome::completed) {
+    out.outcome = IdentifyOutcome::engines_disagree;
+    out.message =
+        fmt::format("{} could not simulate the model: {}", name_of(study.simulation.integrator), work.message);
+    return;
+  }
+  std::vector<PitchState> motion;
+  for (const std::size_t at : grid.samples) motion.push_back(states[at]);
+  out.error = pitch_fit_error(target, motion, study.options.loss);
+  if (std::fabs(fitted - out.error.total) <= kAgreement * std::max(out.error.total, kLeastError)) return;
+  out.outcome = IdentifyOutcome::engines_disagree;
+  out.message = fmt::format("the fit's E = {:.10g} and the {}'s E = {:.10g} disagree: the model is not usable", fitted,
+                            name_of(study.simulation.integrator), out.error.total);
+}
+
+/// Model, error and verdict of the values found.
+void judge(const Study& study, const PitchObjective& objective, std::span<const double> values,
+           PitchIdentification& out) {
+  out.model = with_values(study.first, study.parameters, values);
+  record_error(study, objective.evaluate(values, 0.0, {}), out);
+  const Eigen::MatrixXd jacobian = objective.jacobian(values);
+  const auto freedom = static_cast<double>(jacobian.rows() - jacobian.cols());
+  const double variance = study.objective(Loss::l2).evaluate(values, 0.0, {}) / freedom;
+  PitchIdentifiability found = judge_pitch(study.parameters, values, jacobian, variance);
+  out.verdict = std::move(found.verdict);
+  out.parameters = std::move(found.parameters);
+  out.correlation = std::move(found.correlation);
+  for (const ParameterReport& parameter : out.parameters)
+    if (parameter.at_bound && !parameter.untouched)
+      out.warnings.push_back(fmt::format("{} = {:.6g} {} is at its bound: the best value may lie beyond it",
+                                         parameter.name, parameter.value, parameter.unit));
+}
+
+}  // namespace
+
+PitchIdentification identify_pitch(const HeavePitchModel& guess, const PitchForcing& forcing, const PitchTarget& target,
+                                   const PitchOptions& simulation, const IdentifyPitchOptions& options,
+                                   const Progress& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  PitchIdentification out;
+  out.seed = options.seed;
+  const Study study(guess, forcing, target, simulation, options, out.warnings);
+  const PitchObjective objective = study.objective(options.loss);
+  const std::vector<double> values = take_starts(study, run_all_starts(study, objective, progress), out);
+  if (!values.empty()) {
+    judge(study, objective, values, out);
+    if (out.outcome == IdentifyOutcome::not_run) out.outcome = IdentifyOutcome::completed;
+  }
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return out;
+}
+
+std::string PitchIdentification::brief_report() const {
+  if (outcome == IdentifyOutcome::not_run) return "not run";
+  if (!usable()) return fmt::format("{}: {}", name_of(outcome), message);
+  return fmt::format("E = {:.6g}, {} of {} starts at the best; {}", error.total, starts_at_best, starts.size(),
+                     verdict.message);
+}
+
+}  // namespace crashsim

@@ -1,0 +1,50 @@
+#pragma once
+/// Descents from many starting points.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <crashsim/identify.hpp>
+
+namespace crashsim {
+
+/// E at a point of the unit box with its gradient by the point.
+/// @param smoothing rounding of the corner of |u|, relative to each channel's largest u; 0 for the true loss.
+using SmoothedFunction =
+    std::function<double(std::span<const double> point, double smoothing, std::span<double> gradient)>;
+
+/// Everything the starts depend on.
+struct StartPlan {
+  int starts = 1;
+  int jobs = 0;
+  Loss loss = Loss::l1;
+  Algorithm algorithm = Algorithm::lbfgs;
+  std::function<SmoothedFunction()> make_function;              ///< Called once on each thread.
+  std::function<std::vector<double>(int index)> initial_point;  ///< In the unit box; depends on the index only.
+};
+
+struct StartResult {
+  std::vector<double> parameters;
+  StartReport report;
+};
+
+/// Descends from every start; parameters are points of the unit box. The outcome does not depend on the number of
+/// threads. Starts that `progress` kept from ending have no evaluations.
+std::vector<StartResult> run_starts(const StartPlan& plan, const Progress& progress);
+
+/// What the starts that ended came to.
+struct StartSummary {
+  int best = -1;  ///< Index of the best, the first of equals; -1 when all failed.
+  std::vector<StartReport> reports;
+  int at_best = 0;  ///< Starts with E within 0.1 % of the best.
+  long evaluations = 0;
+};
+/// @param no_error starts with E up to this are at the best, too.
+StartSummary summarize_starts(const std::vector<StartResult>& results, double no_error);
+
+/// Uniform number in [0, 1) that depends on (seed, stream, index) only.
+double uniform_random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
+
+}  // namespace crashsim
