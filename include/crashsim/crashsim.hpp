@@ -32,3 +32,4 @@
 #include <crashsim/trace_io.hpp>
 #include <crashsim/units.hpp>
 #include <crashsim/version.hpp>
+#include <crashsim/vertical_force.hpp>

@@ -60,6 +60,7 @@ const std::map<std::string, Layer> kLayers = {
     {"simulate", simulation},
     {"simulate_pitch", simulation},
     {"solver/", simulation},
+    {"vertical_force", simulation},
 
     {"comparison", judgement},
     {"crush_stiffness", judgement},
