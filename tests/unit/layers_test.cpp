@@ -57,7 +57,10 @@ const std::map<std::string, Layer> kLayers = {
     {"heave_pitch_model", models},
     {"solver/crush_force", models},
 
+    {"coupled_columns", simulation},
+    {"coupled_model", simulation},
     {"simulate", simulation},
+    {"simulate_coupled", simulation},
     {"simulate_pitch", simulation},
     {"solver/", simulation},
     {"vertical_force", simulation},
