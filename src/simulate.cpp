@@ -124,20 +124,6 @@ MotionSummary run(const CrushProblem& problem, const SimulateOptions& options, d
   return summary;
 }
 
-/// What is wrong with a return line that gives back more than there is to give.
-std::string too_soft(const CrushProblem& problem, double force_n, double max_crush_m) {
-  const double least = softest_return(problem, force_n, max_crush_m);
-  const std::string why = fmt::format(
-      "from F_m = {:.6g} N at C = {:.6g} m a return line of {:.6g} N/m would give back more energy than was absorbed, "
-      "or "
-      "push ahead of the undeformed front",
-      force_n, max_crush_m, return_stiffness(problem, force_n));
-  if (!std::isnan(problem.unloading.unloading_stiffness_n_per_m))
-    return fmt::format("{}: unloading_stiffness_n_per_m must be at least {:.6g}", why, least);
-  const double most = force_n / (std::sqrt(least * problem.mass_kg) * problem.speed_mps);
-  return fmt::format("{}: restitution = {:.6g} must be at most {:.6g} here", why, problem.unloading.restitution, most);
-}
-
 void judge(const MotionSummary& summary, const CrushProblem& problem, CrushResponse& out) {
   out.t_m_s = summary.t_m_s;
   out.max_crush_m = summary.max_crush_m;
@@ -154,7 +140,7 @@ void judge(const MotionSummary& summary, const CrushProblem& problem, CrushRespo
         summary.end_time_s, out.displacement_m.back(), out.velocity_mps.back());
   } else if (summary.end == MotionEnd::unloading_too_soft) {
     out.outcome = CrushOutcome::unloading_too_soft;
-    out.message = too_soft(problem, summary.max_crush_force_n, summary.max_crush_m);
+    out.message = why_too_soft(problem, summary.max_crush_force_n, summary.max_crush_m);
   } else if (summary.end == MotionEnd::step_limit) {
     out.outcome = CrushOutcome::step_limit;
     out.message = fmt::format("{} steps reached only t = {:.6g} s: loosen rtol or check the model's ordinates",

@@ -48,6 +48,7 @@ constexpr std::array kDimensions = std::to_array<DimensionNames>({
     {Dimension::angular_acceleration, "rad/s^2", "angular acceleration"},
     {Dimension::inertia, "kg m^2", "moment of inertia"},
     {Dimension::frequency, "Hz", "frequency"},
+    {Dimension::angle_per_length, "rad/m", "angle per length"},
 });
 
 /// A unit and the ways to spell it, as normalised() leaves them, separated by blanks.
@@ -126,6 +127,8 @@ constexpr std::array kUnits = std::to_array<Spellings>({
     {{"Hz", Dimension::frequency, 1.0}, "Hz hertz"},
     {{"kHz", Dimension::frequency, 1e3}, "kHz"},
     {{"MHz", Dimension::frequency, 1e6}, "MHz"},
+    {{"rad/m", Dimension::angle_per_length, 1.0}, "rad/m"},
+    {{"deg/m", Dimension::angle_per_length, kDegree}, "deg/m"},
 });
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {

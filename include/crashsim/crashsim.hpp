@@ -5,6 +5,8 @@
 #include <crashsim/case.hpp>
 #include <crashsim/comparison.hpp>
 #include <crashsim/config.hpp>
+#include <crashsim/coupled_columns.hpp>
+#include <crashsim/coupled_model.hpp>
 #include <crashsim/crush_model.hpp>
 #include <crashsim/error.hpp>
 #include <crashsim/files.hpp>
@@ -26,6 +28,7 @@
 #include <crashsim/record.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
 #include <crashsim/solver_statistics.hpp>
 #include <crashsim/summary.hpp>
@@ -36,3 +39,4 @@
 #include <crashsim/units.hpp>
 #include <crashsim/vehicle_io.hpp>
 #include <crashsim/version.hpp>
+#include <crashsim/vertical_force.hpp>

@@ -29,7 +29,8 @@ enum class Dimension {
   angular_rate,
   angular_acceleration,
   inertia,
-  frequency
+  frequency,
+  angle_per_length
 };
 
 /// One unit of measure: value in SI = value * to_si.

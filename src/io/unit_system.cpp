@@ -53,6 +53,8 @@ Exponents exponents_of(Dimension dimension) {
       return {0, 0, -2};
     case Dimension::inertia:
       return {1, 2, 0};
+    case Dimension::angle_per_length:
+      return {0, -1, 0};
     case Dimension::angle:
     case Dimension::none:
     case Dimension::unknown:

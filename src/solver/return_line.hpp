@@ -1,6 +1,8 @@
 #pragma once
 /// Plastic unloading: the straight line that the force runs down after maximum crush.
 
+#include <string>
+
 #include "solver/crush_events.hpp"
 
 namespace crashsim {
@@ -17,6 +19,9 @@ double return_line_energy(const Quadratic& line, double x);
 
 /// Least k_u that neither gives back more than m v0^2 / 2 nor still pushes where x < 0, ahead of the undeformed front.
 double softest_return(const CrushProblem& problem, double force_n, double max_crush_m);
+
+/// That a return line from there gives back too much, in words, with what to give instead.
+std::string why_too_soft(const CrushProblem& problem, double force_n, double max_crush_m);
 
 /// Whether a region's return line is softer than that at maximum crush.
 bool returns_too_much(const CrushProblem& problem, const Region& region, double max_crush_m);

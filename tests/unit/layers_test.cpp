@@ -61,9 +61,13 @@ const std::map<std::string, Layer> kLayers = {
 
     {"forcing", simulation},
     {"pitch_input", simulation},
+    {"coupled_columns", simulation},
+    {"coupled_model", simulation},
     {"simulate", simulation},
+    {"simulate_coupled", simulation},
     {"simulate_pitch", simulation},
     {"solver/", simulation},
+    {"vertical_force", simulation},
 
     {"comparison", judgement},
     {"crush_stiffness", judgement},

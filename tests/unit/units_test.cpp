@@ -55,7 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
         Spelling{"Mg.mm/s", impulse, 1}, Spelling{"rad", angle, 1}, Spelling{"°", angle, 0.017453292519943295},
         Spelling{"deg/s", angular_rate, 0.017453292519943295}, Spelling{"DPS", angular_rate, 0.017453292519943295},
         Spelling{"rad/s^2", angular_acceleration, 1}, Spelling{"kg m^2", inertia, 1}, Spelling{"Hz", frequency, 1},
-        Spelling{"kHz", frequency, 1e3}, Spelling{"-", none, 1}, Spelling{"%", none, 0.01}));
+        Spelling{"kHz", frequency, 1e3}, Spelling{"rad/m", angle_per_length, 1},
+        Spelling{"deg/m", angle_per_length, 0.017453292519943295}, Spelling{"-", none, 1}, Spelling{"%", none, 0.01}));
 
 TEST(Units, LetterCaseCountsWhereItTellsUnitsApart) {
   EXPECT_FALSE(find_unit("MG").has_value());
@@ -94,8 +95,9 @@ TEST(Units, QuantitiesNameTheValueTheRuleAndTheRemedy) {
 }
 
 TEST(Units, DimensionsAndTheirSymbolsGoBothWays) {
-  for (const auto dimension : {time, length, speed, acceleration, mass, force, moment, stiffness, damping, energy,
-                               impulse, angle, angular_rate, angular_acceleration, inertia, frequency}) {
+  for (const auto dimension :
+       {time, length, speed, acceleration, mass, force, moment, stiffness, damping, energy, impulse, angle,
+        angular_rate, angular_acceleration, inertia, frequency, angle_per_length}) {
     EXPECT_EQ(dimension_of(si_symbol(dimension)), dimension);
     EXPECT_DOUBLE_EQ(quantity(fmt::format("1{}", si_symbol(dimension)), dimension), 1.0);
   }
