@@ -14,12 +14,13 @@
 #include <crashsim/signal.hpp>
 #include <crashsim/trace_io.hpp>
 
+#include "channel_choice.hpp"
+
 namespace crashsim {
 namespace {
 
 constexpr double kImpulseCfc = 60.0;  // SAE J211: barrier forces
 constexpr double kClearForce = 0.05;  // of the largest: below it the height of a force says nothing
-constexpr std::size_t kFewestSamples = 3;
 
 using Names = std::vector<std::string>;
 
@@ -29,14 +30,8 @@ class Source {
   Source(const TraceSet& set, const ForcingOptions& options, MeasuredForcing& out)
       : set_(set), options_(options), out_(out) {}
 
-  /// Channels that selectors name, in order, each once.
   [[nodiscard]] std::vector<const Trace*> pick(const Names& selectors) const {
-    std::vector<const Trace*> picked;
-    for (const std::string& selector : selectors)
-      for (const std::size_t i : select_channels(set_, selector))
-        if (std::find(picked.begin(), picked.end(), &set_.traces[i]) == picked.end()) picked.push_back(&set_.traces[i]);
-    for (const Trace* trace : picked) check(*trace);
-    return picked;
+    return chosen_channels(set_, selectors);
   }
 
   [[nodiscard]] const Trace* find(std::string_view name) const {
@@ -60,17 +55,9 @@ class Source {
     return series;
   }
 
-  [[nodiscard]] std::string what(const Trace& trace) const {
-    return fmt::format("{}: channel {} {}", set_.path, trace.id, trace.name);
-  }
+  [[nodiscard]] std::string what(const Trace& trace) const { return channel_label(set_, trace); }
 
  private:
-  void check(const Trace& trace) const {
-    if (!trace.problem.empty()) throw InvalidInput(fmt::format("{}: {}", what(trace), trace.problem));
-    if (!trace.has_samples) throw InvalidInput(fmt::format("{}: its samples are not there", what(trace)));
-    check_series(trace.times(), trace.values, what(trace), kFewestSamples);
-  }
-
   /// Filters in place, on uniform steps. @returns what was done.
   [[nodiscard]] std::string filter(TimeSeries& series, double cfc, const Trace& trace) const {
     if (!(cfc > 0.0)) return {};
@@ -206,7 +193,7 @@ MeasuredForcing read_forcing(const ForcingOptions& options) {
   Names along = or_own(options.longitudinal_channels, is_default, source, {"longitudinal_force_n"});
   if (along.empty()) along = or_own({}, is_default, source, {"spring_force_n", "damper_force_n"});
   for (const Trace* trace : source.pick(or_own(options.vertical_channels, is_default, source, {"vertical_force_n"})))
-    add(out.forcing.vertical_force_n, source.force(*trace), options.vertical_sense == VerticalSense::up ? -1.0 : 1.0);
+    add(out.forcing.vertical_force_n, source.force(*trace), options.vertical_sign == VerticalSign::up ? -1.0 : 1.0);
   set_longitudinal(source, source.pick(along), options, path, out);
   if (out.forcing.vertical_force_n.empty() && out.forcing.longitudinal_force_n.empty())
     throw InvalidInput(

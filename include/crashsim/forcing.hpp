@@ -3,9 +3,9 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include <crashsim/body_motion.hpp>
 #include <crashsim/options.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_pitch.hpp>
@@ -13,19 +13,13 @@
 
 namespace crashsim {
 
-/// What a positive value of the vertical channels does to the vehicle.
-enum class VerticalSense { down, up };
-inline constexpr std::string_view kVerticalSenseNames[] = {"down", "up"};
-template <>
-inline constexpr std::span<const std::string_view> enum_names<VerticalSense>{kVerticalSenseNames};
-
 /// Which channels are the forces. A force may be an impulse in its file (rigid walls of finite-element codes): it is
 /// differentiated. Several channels add up.
 struct ForcingOptions {
-  std::string file;                            ///< The trace.
-  std::vector<std::string> vertical_channels;  ///< Barrier's vertical force on the vehicle; empty: none.
-  VerticalSense vertical_sense = VerticalSense::down;
-  std::vector<std::string> longitudinal_channels;  ///< Longitudinal force; empty: none. Either sign: it stops.
+  std::string file;                                 ///< The trace.
+  std::vector<std::string> vertical_channels;       ///< Barrier's vertical force on the vehicle; empty: none.
+  VerticalSign vertical_sign = VerticalSign::down;  ///< Where a positive one pushes.
+  std::vector<std::string> longitudinal_channels;   ///< Longitudinal force; empty: none. Either sign: it stops.
   std::vector<double> row_heights_m;  ///< Heights of the longitudinal channels (load-cell rows), which give the force's
                                       ///< height over time [m]; empty: the vehicle's force_height_m.
   std::vector<std::string> height_channel;  ///< Channel of the force's height instead, at most one.
@@ -41,8 +35,8 @@ inline constexpr std::array<Field<ForcingOptions>, 11> kForcingFields = {{
     {"file", "force", "", "trace with the barrier's force, or a response.csv", &ForcingOptions::file},
     {"vertical_channels", "channel", "", "channels of the vertical force on the vehicle (summed)",
      &ForcingOptions::vertical_channels},
-    {"vertical_sense", "vertical-sense", "", "where a positive vertical force pushes the vehicle",
-     choice<&ForcingOptions::vertical_sense>()},
+    {"vertical_sign", "vertical-sign", "", "where a positive vertical force pushes the vehicle",
+     choice<&ForcingOptions::vertical_sign>()},
     {"longitudinal_channels", "longitudinal", "", "channels of the longitudinal force (summed)",
      &ForcingOptions::longitudinal_channels},
     {"row_heights_m", "row-heights", "m", "heights of the longitudinal channels, rows of a load-cell wall",

@@ -86,7 +86,7 @@ TEST_F(Forcing, AnImpulseIsDifferentiated) {
 TEST_F(Forcing, ForcesAddUpUnfilteredAndMayPointUp) {
   const std::string text = table("A_N,B_kN", {half_sine, [](double t) { return half_sine(t) / 2000.0; }});
   const MeasuredForcing down = read(text, {{"channel", Names{"?_*N", "A_N"}}});
-  const MeasuredForcing up = read(text, {{"channel", Names{"A_N", "B_kN"}}, {"vertical-sense", "up"}});
+  const MeasuredForcing up = read(text, {{"channel", Names{"A_N", "B_kN"}}, {"vertical-sign", "up"}});
   for (const double t : {0.01, 0.05}) {
     EXPECT_NEAR(value_at(down.forcing.vertical_force_n, t), 1.5 * half_sine(t), 1e-9 * kPeak);
     EXPECT_NEAR(value_at(up.forcing.vertical_force_n, t), -1.5 * half_sine(t), 1e-9 * kPeak);

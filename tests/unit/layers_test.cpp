@@ -47,6 +47,8 @@ const std::map<std::string, Layer> kLayers = {
     {"version", base},
 
     {"body_motion", signals},
+    {"channel_choice", signals},
+    {"measured_motion", signals},
     {"io/", signals},
     {"pulse", signals},
     {"pulse_channels", signals},
