@@ -126,13 +126,13 @@ class RunCommand : public Command {
       warn(result.pulse->warnings);
     }
     if (result.identification) report_fit(*result.identification);
-    for (const std::string& note : result.notes) say("  note: " + note);
     if (result.response.outcome != CrushOutcome::not_run) report_motion(result);
     if (result.forcing) {
       for (const std::string& step : result.forcing->steps) say("  " + step);
       warn(result.forcing->warnings);
     }
-    if (result.pitch) report_pitch(*result.pitch);
+    if (result.pitch) report_pitch(*result.pitch, result.coupled);
+    note(result.notes);
     for (const Prediction& prediction : result.predictions)
       say(fmt::format("prediction at {}: {}", prediction.name, prediction.response.brief_report()));
     for (const NamedComparison& comparison : result.comparisons) {
@@ -155,10 +155,22 @@ class RunCommand : public Command {
     warn(fit.warnings);
   }
 
-  void report_pitch(const PitchResponse& pitch) const {
+  void report_pitch(const PitchResponse& pitch, const std::optional<CoupledResponse>& coupled) const {
     say(fmt::format("heave and pitch: {}", pitch.brief_report()));
-    for (const std::string& note : pitch.notes) say("  note: " + note);
-    say(summarize(pitch));
+    note(pitch.notes);
+    const Summary phases = summarize(pitch);
+    if (!coupled) return say(phases);
+    say(fmt::format("coupled with the crush: {}", coupled->brief_report()));
+    note(coupled->notes);
+    Summary together;
+    for (const SummaryItem& item : summarize(*coupled))
+      if (std::any_of(phases.begin(), phases.end(), [&](const SummaryItem& same) { return same.name == item.name; }))
+        together.push_back(item);
+    say(phases, together, "two phases", "coupled");
+  }
+
+  void note(const std::vector<std::string>& notes) const {
+    for (const std::string& text : notes) say("  note: " + text);
   }
 
   void report_motion(const CaseResult& result) const {

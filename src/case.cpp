@@ -10,6 +10,7 @@
 #include <crashsim/model_io.hpp>
 #include <crashsim/units.hpp>
 
+#include "case_pitch.hpp"
 #include "case_sections.hpp"
 
 namespace crashsim {
@@ -104,34 +105,12 @@ SimulateOptions at_speed(const Case& study, double impact_speed_mps) {
   return options;
 }
 
-/// The force that the case names, or the simulated crush force. The latter also acts beside a vertical force where the
-/// vehicle says at which height.
-PitchForcing find_forcing(const Case& study, const HeavePitchModel& vehicle, CaseResult& out) {
-  const PitchForcing simulated = forcing_of(out.response);
-  if (study.forcing.file.empty()) return simulated;
-  ForcingOptions options = study.forcing;
-  options.file = resolved(study, study.forcing.file);
-  out.forcing = read_forcing(options);
-  out.input_files.insert(out.input_files.end(), out.forcing->input_files.begin(), out.forcing->input_files.end());
-  PitchForcing forcing = out.forcing->forcing;
-  if (forcing.longitudinal_force_n.empty() && !std::isnan(vehicle.cg_height_m) && !std::isnan(vehicle.force_height_m))
-    forcing.longitudinal_force_n = simulated.longitudinal_force_n;
-  if (std::isnan(forcing.t_m_s)) forcing.t_m_s = simulated.t_m_s;
-  return forcing;
-}
-
-void simulate_heave_and_pitch(const Case& study, CaseResult& out) {
-  HeavePitchModel vehicle = study.vehicle;
-  vehicle.mass_kg = out.model.mass_kg;
-  out.pitch = simulate_pitch(vehicle, find_forcing(study, vehicle, out), study.motion);
-}
-
 }  // namespace
 
 bool CaseResult::usable() const {
   const auto is_usable = [](const Prediction& prediction) { return prediction.response.usable(); };
   return (!identification || identification->usable()) && response.usable() && (!pitch || pitch->usable()) &&
-         std::all_of(predictions.begin(), predictions.end(), is_usable);
+         (!coupled || coupled->usable()) && std::all_of(predictions.begin(), predictions.end(), is_usable);
 }
 
 CaseResult run_case(const Case& study, const Progress& progress) {
@@ -160,8 +139,9 @@ CaseResult run_case(const Case& study, const Progress& progress) {
   out.response = simulate(out.model, options);
   for (const double predicted : study.what.speeds_mps)
     out.predictions.push_back({prediction_name(predicted), simulate(out.model, at_speed(study, predicted))});
-  if (out.response.usable() && has_pitch(study)) simulate_heave_and_pitch(study, out);
+  if (out.response.usable() && has_pitch(study)) simulate_heave_and_pitch(study, speed, out);
   if (out.pulse && !out.response.time_s.empty()) compare_with_test(study, out);
+  if (out.pitch && !study.measured.file.empty()) compare_heave_and_pitch(study, out);
   return out;
 }
 

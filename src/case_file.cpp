@@ -46,11 +46,13 @@ Place place_of(std::string_view section, const Field<S>& field) {
   detail::throw_unknown_name(what, entry.key, here);
 }
 
-/// The key of an option; `force = {file = ..}` in [pitch] is a table of its own.
+/// The key of an option; `force = {file = ..}` in [pitch] and `motion = {file = ..}` in [compare] are tables.
 std::string_view option_key(const ConfigEntry& entry) {
-  constexpr std::string_view kForce = "force.";
   const std::string_view key = entry.key;
-  return entry.section == "pitch" && key.starts_with(kForce) ? key.substr(kForce.size()) : key;
+  for (const auto& [section, table] :
+       {std::pair("pitch", std::string_view("force.")), std::pair("compare", std::string_view("motion."))})
+    if (entry.section == section && key.starts_with(table)) return key.substr(table.size());
+  return key;
 }
 
 void set(Case& study, const ConfigEntry& entry) {
@@ -117,7 +119,8 @@ std::string prediction_name(double speed_mps) { return fmt::format("{:.4g}kmh", 
 
 std::vector<std::string> case_inputs(const Case& study) {
   std::vector<std::string> paths = {study.path};
-  for (const std::string& file : {study.what.pulse_file, study.what.model_file, study.forcing.file})
+  for (const std::string& file :
+       {study.what.pulse_file, study.what.model_file, study.forcing.file, study.measured.file})
     if (!file.empty()) paths.push_back(resolved(study, file));
   for (const std::string& file : study.what.further_pulses) paths.push_back(resolved(study, file));
   return paths;

@@ -15,6 +15,7 @@ constexpr const char* kPulse = "pulse.csv";
 constexpr const char* kModel = "model.json";
 constexpr const char* kResponse = "response.csv";
 constexpr const char* kPitch = "pitch.csv";
+constexpr const char* kCoupled = "coupled.csv";
 constexpr const char* kComparison = "comparison.json";
 constexpr const char* kRecord = "case.lock.json";
 
@@ -49,6 +50,7 @@ std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& res
     std::erase_if(fit, [](const SummaryItem& item) { return item.name == "seconds"; });  // the same bytes every time
     parts.emplace_back("identification", std::move(fit));
   }
+  if (result.coupled) parts.emplace_back("coupled", summarize(*result.coupled));
   for (const NamedComparison& comparison : result.comparisons)
     parts.emplace_back("rating_" + comparison.name, ratings_of(comparison.result));
   for (const Prediction& prediction : result.predictions)
@@ -61,8 +63,9 @@ std::vector<std::string> case_file_names(const Case& study) {
   if (!study.what.pulse_file.empty()) names.emplace_back(kPulse);
   names.insert(names.end(), {kModel, kResponse});
   if (has_pitch(study)) names.emplace_back(kPitch);
+  if (has_pitch(study) && study.what.coupled) names.emplace_back(kCoupled);
   for (const double speed : study.what.speeds_mps) names.push_back(prediction_file(speed));
-  if (!study.what.pulse_file.empty()) names.emplace_back(kComparison);
+  if (!study.what.pulse_file.empty() || !study.measured.file.empty()) names.emplace_back(kComparison);
   names.insert(names.end(), {std::string(kCaseSummary), kRecord});
   return names;
 }
@@ -77,6 +80,7 @@ std::vector<CaseFile> case_files(const Case& study, const CaseResult& result) {
     files.push_back({kResponse, format_response(result.response, result.model.mass_kg, record)});
   }
   if (result.pitch) files.push_back({kPitch, format_pitch(*result.pitch, record)});
+  if (result.coupled) files.push_back({kCoupled, format_coupled(*result.coupled, record)});
   for (std::size_t i = 0; i < result.predictions.size(); ++i)
     files.push_back({prediction_file(study.what.speeds_mps[i]),
                      format_response(result.predictions[i].response, result.model.mass_kg, record)});

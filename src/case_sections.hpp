@@ -50,6 +50,9 @@ inline auto case_sections() {
                     CaseSection<ForcingOptions>{"pitch", &Case::forcing, {}, {}},
                     CaseSection<HeavePitchModel>{"pitch", &Case::vehicle, {"formulation"}, {}},
                     CaseSection<PitchOptions>{"pitch", &Case::motion, {}, {}},
+                    CaseSection<VerticalForceLaw>{"pitch", &Case::vertical, {}, {}},
+                    CaseSection<GroundContact>{"vehicle", &Case::ground, {}, {}},
+                    CaseSection<MotionOptions>{"compare", &Case::measured, {}, {}},
                     CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}});
 }
 

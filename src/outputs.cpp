@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include <crashsim/coupled_columns.hpp>
 #include <crashsim/table_io.hpp>
 #include <crashsim/units.hpp>
 
@@ -17,6 +18,17 @@ Comments header(const Record& record, double mass_kg, double impact_speed_mps) {
   if (!std::isnan(mass_kg)) comments.emplace_back("mass_kg", format_number(mass_kg));
   comments.emplace_back("impact_speed_mps", format_number(impact_speed_mps));
   return comments;
+}
+
+/// A response by the table of its columns.
+template <class Response, class Columns>
+std::string format_motion(const Response& response, const Columns& table, const Record& record) {
+  Comments comments = {{"crashsim", record.version}, {"outcome", std::string(name_of(response.outcome))}};
+  for (const std::string& note : response.notes) comments.emplace_back("note", note);
+  comments.emplace_back("record", to_json(record));
+  std::vector<Column> columns;
+  for (const auto& column : table) columns.push_back({std::string(column.name), response.*column.member});
+  return format_csv(comments, columns);
 }
 
 template <class S, std::size_t N>
@@ -74,13 +86,11 @@ std::string format_response(const CrushResponse& response, double mass_kg, const
 }
 
 std::string format_pitch(const PitchResponse& response, const Record& record) {
-  Comments comments = {{"crashsim", record.version}, {"outcome", std::string(name_of(response.outcome))}};
-  for (const std::string& note : response.notes) comments.emplace_back("note", note);
-  comments.emplace_back("record", to_json(record));
-  std::vector<Column> columns;
-  for (const PitchColumn& column : kPitchColumns)
-    columns.push_back({std::string(column.name), response.*column.member});
-  return format_csv(comments, columns);
+  return format_motion(response, kPitchColumns, record);
+}
+
+std::string format_coupled(const CoupledResponse& response, const Record& record) {
+  return format_motion(response, kCoupledColumns, record);
 }
 
 std::string format_comparison(const Comparison& comparison, const Record& record) {

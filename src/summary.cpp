@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include <crashsim/coupled_columns.hpp>
 #include <crashsim/units.hpp>
 
 #include "json.hpp"
@@ -14,6 +15,15 @@ namespace {
 void append_metrics(const Metrics& metrics, Summary& summary) {
   for (const MetricField& field : kMetricFields)
     summary.push_back({std::string(field.name), metrics.*field.member, std::string(field.doc)});
+}
+
+/// Outcome and the numbers of a table.
+template <class Response, class Table>
+Summary summary_of(const Response& response, const Table& table) {
+  Summary summary = {{"outcome", std::string(name_of(response.outcome)), "outcome"}};
+  for (const auto& number : table)
+    summary.push_back({std::string(number.name), response.*number.member, std::string(number.doc)});
+  return summary;
 }
 
 Json to_json(const SummaryValue& value) {
@@ -76,12 +86,9 @@ Summary summarize(const CrushResponse& response, double mass_kg) {
   return summary;
 }
 
-Summary summarize(const PitchResponse& response) {
-  Summary summary = {{"outcome", std::string(name_of(response.outcome)), "outcome"}};
-  for (const auto& number : kPitchNumbers)
-    summary.push_back({std::string(number.name), response.*number.member, std::string(number.doc)});
-  return summary;
-}
+Summary summarize(const PitchResponse& response) { return summary_of(response, kPitchNumbers); }
+
+Summary summarize(const CoupledResponse& response) { return summary_of(response, kCoupledNumbers); }
 
 Summary summarize(const Identification& fit) {
   return {{"outcome", std::string(name_of(fit.outcome)), "outcome"},

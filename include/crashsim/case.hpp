@@ -13,12 +13,15 @@
 #include <crashsim/forcing.hpp>
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
+#include <crashsim/measured_motion.hpp>
 #include <crashsim/option_docs.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
 #include <crashsim/summary.hpp>
+#include <crashsim/vertical_force.hpp>
 
 namespace crashsim {
 
@@ -35,11 +38,12 @@ struct CaseOptions {
   double restitution = kUnset;                            ///< [crush] restitution
   bool bilateral = false;                                 ///< [crush] bilateral
   std::vector<std::string> further_pulses;                ///< [identify] pulses: further tests of the same structure.
-  std::vector<double> speeds_mps;                         ///< [predict] speeds
+  bool coupled = false;            ///< [pitch] coupled: crush, heave and pitch as one model, beside the two phases.
+  std::vector<double> speeds_mps;  ///< [predict] speeds
 
   bool operator==(const CaseOptions&) const = default;
 };
-inline constexpr std::array<Field<CaseOptions>, 12> kCaseFields = {{
+inline constexpr std::array<Field<CaseOptions>, 13> kCaseFields = {{
     {"title", "title", "", "what the study is about", &CaseOptions::title},
     {"mass_kg", "vehicle.mass", "kg", "test mass; default: the pulse file's or the model's", &CaseOptions::mass_kg,
      positive()},
@@ -60,6 +64,7 @@ inline constexpr std::array<Field<CaseOptions>, 12> kCaseFields = {{
     {"bilateral", "crush.bilateral", "", "the barrier pulls, too: contact is never lost", &CaseOptions::bilateral},
     {"further_pulses", "identify.pulses", "", "further tests of the same structure, fitted together",
      &CaseOptions::further_pulses},
+    {"coupled", "pitch.coupled", "", "also simulate crush, heave and pitch as one model", &CaseOptions::coupled},
     {"speeds_mps", "predict.speeds", "m/s", "speeds to predict", &CaseOptions::speeds_mps},
 }};
 template <>
@@ -75,6 +80,9 @@ struct Case {
   HeavePitchModel vehicle;     ///< [vehicle], its formulation in [pitch]; the mass is that of the crush.
   ForcingOptions forcing;      ///< [pitch] force = {file, channel, ..}; without a file: the simulated crush force.
   PitchOptions motion;         ///< [pitch]
+  VerticalForceLaw vertical;   ///< [pitch] angle, friction, ..: vertical force of the simulated crush.
+  GroundContact ground;        ///< [vehicle], of the coupled model.
+  MotionOptions measured;      ///< [compare] motion = {file, front, rear, ..}: measured heave and pitch.
   CompareOptions comparison;   ///< [compare]
 };
 
@@ -102,8 +110,9 @@ struct CaseResult {
   CrushResponse response;
   std::optional<MeasuredForcing> forcing;  ///< Where [pitch] names a file.
   std::optional<PitchResponse> pitch;
+  std::optional<CoupledResponse> coupled;
   std::vector<Prediction> predictions;
-  std::vector<NamedComparison> comparisons;  ///< "to_max_crush" and "whole_record"
+  std::vector<NamedComparison> comparisons;  ///< "to_max_crush", "whole_record", "heave_and_pitch", ..
   std::vector<std::string> input_files;
   std::vector<std::string> notes;  ///< What the case did not say and was taken from elsewhere.
 
@@ -133,8 +142,8 @@ std::vector<std::string> case_inputs(const Case& study);
 /// Names of the files that a case will write, in the order of case_files().
 std::vector<std::string> case_file_names(const Case& study);
 
-/// The files of a case directory: pulse.csv, model.json, response.csv, pitch.csv, prediction_*.csv, comparison.json,
-/// summary.json and, last, case.lock.json, the record.
+/// The files of a case directory: pulse.csv, model.json, response.csv, pitch.csv, coupled.csv, prediction_*.csv,
+/// comparison.json, summary.json and, last, case.lock.json, the record.
 std::vector<CaseFile> case_files(const Case& study, const CaseResult& result);
 
 }  // namespace crashsim

@@ -9,6 +9,7 @@
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
 
 namespace crashsim {
@@ -21,6 +22,9 @@ std::string format_response(const CrushResponse& response, double mass_kg, const
 
 /// pitch.csv: the columns of kPitchColumns; outcome and notes as comments.
 std::string format_pitch(const PitchResponse& response, const Record& record);
+
+/// coupled.csv: the columns of kCoupledColumns; outcome and notes as comments.
+std::string format_coupled(const CoupledResponse& response, const Record& record);
 
 /// rating.json, or comparison.json when there are several: each under its name.
 std::string format_comparisons(const std::vector<NamedComparison>& comparisons, const Record& record);

@@ -11,6 +11,7 @@
 #include <crashsim/metrics.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
 
 namespace crashsim {
@@ -37,6 +38,8 @@ Summary summarize(const Pulse& pulse);
 Summary summarize(const CrushResponse& response, double mass_kg);
 /// `outcome`, then the numbers of kPitchNumbers.
 Summary summarize(const PitchResponse& response);
+/// `outcome`, then the numbers of kCoupledNumbers.
+Summary summarize(const CoupledResponse& response);
 /// Outcome, errors, starts and verdict.
 Summary summarize(const Identification& identification);
 

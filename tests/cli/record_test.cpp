@@ -107,6 +107,16 @@ TEST_F(Recorded, ACaseRunAgainGivesTheSameFiles) {
   }
 }
 
+TEST_F(Recorded, ThePapersCaseRunAgainGivesTheSameFiles) {
+  expect_done({"run", "data/paper/case.toml", "-o", "first"});
+  expect_done({"run", "first/case.lock.json", "-o", "second"});
+  const std::vector<std::string> names = workspace.names("first");
+  EXPECT_THAT(names, testing::IsSupersetOf({"pitch.csv", "coupled.csv", "comparison.json"}));
+  EXPECT_EQ(workspace.names("second"), names);
+  for (const std::string& name : names)
+    EXPECT_EQ(workspace.text_of("second/" + name), workspace.text_of("first/" + name)) << name;
+}
+
 TEST_F(Recorded, TheNumberOfThreadsDoesNotShow) {
   std::string first;
   for (const char* jobs : {"1", "2", "7"}) {

@@ -326,6 +326,58 @@ TEST(RunCase, AModelKeepsItsPlasticUnloadingUntilTheCaseSaysOther) {
             (Unloading{UnloadingKind::plastic, false, 1e8, kUnset}));
 }
 
+TEST(RunCase, TheCoupledMotionStandsBesideTheTwoPhases) {
+  const test::TempDir dir;
+  const std::string text = fmt::format(
+      "[crush]\nmodel = \"{}/syn-a/model.json\"\n{}cg_height = 0.6\nforce_height = 0.4\nlift_off = true\n"
+      "[pitch]\ncoupled = true\nangle = 0.1\nfriction = 0.3\n",
+      kData, kVehicle);
+  const Case study = read_case(dir.file("case.toml", text));
+  const CaseResult result = run_case(study);
+  ASSERT_TRUE(result.pitch && result.coupled);
+  EXPECT_GT(result.coupled->pitch_max_rad, 0.0);
+  CoupledModel model{result.model, study.vehicle, study.vertical, study.ground};
+  CoupledOptions options;
+  options.dt_s = study.motion.dt_s;
+  EXPECT_EQ(result.coupled->pitch_rad, simulate_coupled(model, options).pitch_rad);
+  EXPECT_THAT(result.notes, testing::Contains(testing::HasSubstr("coupled it has pitched")));
+  EXPECT_THAT(case_file_names(study), testing::IsSupersetOf({"pitch.csv", "coupled.csv"}));
+  EXPECT_THAT(
+      [&] {
+        static_cast<void>(run_case(read_case(dir.file(
+            "b.toml",
+            text +
+                fmt::format("force = {{file = \"{}/fe-car/C56.csv\", channel = \"barrier_impulse_FTZ\"}}\n", kData)))));
+      },
+      testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("leave one out")));
+}
+
+TEST(RunCase, HeaveAndPitchAreComparedWithMeasuredNodes) {
+  const test::TempDir dir;
+  const Case study = read_case(dir.file(
+      "case.toml",
+      fmt::format("[crush]\nmodel = \"{0}/syn-a/model.json\"\n{1}cg_height = 0.6\nforce_height = 0.5\n[compare]\n"
+                  "motion = {{file = \"{0}/fe-car/C56.csv\", front = [\"*_MID_DZ\", \"*_MID_VZ\"], rear = "
+                  "[\"*_REAR_DZ\", \"*_REAR_VZ\"], front_position = \"846.7 mm\", rear_position = 0, "
+                  "cg_position = 0.65}}\n",
+                  kData, kVehicle)));
+  const CaseResult result = run_case(study);
+  ASSERT_THAT(result.comparisons, SizeIs(1));
+  EXPECT_EQ(result.comparisons[0].name, "heave_and_pitch");
+  ASSERT_THAT(result.comparisons[0].result.channels, SizeIs(4));
+  EXPECT_GE(result.comparisons[0].result.start_s, result.pitch->start_time_s);
+  // Left and right rear sills, 120.3 mm up at 0.12 s by the file, against 89.0 mm at the middle ones.
+  const MeasuredMotion measured = read_motion([&] {
+    MotionOptions options = study.measured;
+    options.file = kData + "/fe-car/C56.csv";
+    return options;
+  }());
+  const auto at = static_cast<std::size_t>(
+      std::lower_bound(measured.pitch_rad.time_s.begin(), measured.pitch_rad.time_s.end(), 0.12) -
+      measured.pitch_rad.time_s.begin());
+  EXPECT_NEAR(measured.pitch_rad.values[at], (120.3 - 89.0) / 846.7, 5e-4);
+}
+
 TEST(RunCase, CanBeStopped) {
   Case study = read_case(kData + "/fe-car/case.toml");
   study.identify.starts = 100000;

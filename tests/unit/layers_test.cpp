@@ -89,6 +89,7 @@ const std::map<std::string, Layer> kLayers = {
     {"case", pipeline},
     {"case_file", pipeline},
     {"case_outputs", pipeline},
+    {"case_pitch", pipeline},
     {"case_sections", pipeline},
     {"model_io", pipeline},
     {"outputs", pipeline},

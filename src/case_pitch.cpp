@@ -1,0 +1,143 @@
+#include "case_pitch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "case_sections.hpp"
+
+namespace crashsim {
+namespace {
+
+void append(const std::vector<std::string>& more, std::vector<std::string>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// The vehicle with the mass of the crush.
+HeavePitchModel vehicle_of(const Case& study, const CaseResult& out) {
+  HeavePitchModel vehicle = study.vehicle;
+  vehicle.mass_kg = out.model.mass_kg;
+  return vehicle;
+}
+
+/// The force that the case names. The simulated crush force acts where there is no file, and beside a vertical force
+/// where the vehicle says at which height.
+PitchForcing find_forcing(const Case& study, CaseResult& out) {
+  const PitchForcing simulated = forcing_of(out.response);
+  PitchForcing forcing;
+  if (study.forcing.file.empty()) {
+    forcing = simulated;
+  } else {
+    ForcingOptions options = study.forcing;
+    options.file = resolved(study, study.forcing.file);
+    out.forcing = read_forcing(options);
+    append(out.forcing->input_files, out.input_files);
+    forcing = out.forcing->forcing;
+    const HeavePitchModel& vehicle = study.vehicle;
+    if (forcing.longitudinal_force_n.empty() && !std::isnan(vehicle.cg_height_m) && !std::isnan(vehicle.force_height_m))
+      forcing.longitudinal_force_n = simulated.longitudinal_force_n;
+    if (std::isnan(forcing.t_m_s)) forcing.t_m_s = simulated.t_m_s;
+  }
+  if (!is_active(study.vertical)) return forcing;
+  if (!forcing.vertical_force_n.empty())
+    throw InvalidInput(fmt::format("{}: [pitch] has a vertical force from {} and an angle or friction: leave one out",
+                                   study.path, study.forcing.file));
+  forcing.vertical_force_n = vertical_force(study.vertical, out.response);
+  return forcing;
+}
+
+CoupledResponse run_coupled(const Case& study, double impact_speed_mps, const PitchForcing& forcing,
+                            const CaseResult& out) {
+  CoupledOptions options;
+  options.impact_speed_mps = impact_speed_mps;
+  options.end_time_s = study.motion.end_time_s;
+  options.dt_s = study.motion.dt_s;
+  const CoupledModel model{out.model, vehicle_of(study, out), study.vertical, study.ground};
+  return simulate_coupled(model, options, is_active(study.vertical) ? TimeSeries{} : forcing.vertical_force_n);
+}
+
+/// Where the two phases and the coupled motion differ, and why.
+std::vector<std::string> differences(const PitchResponse& phases, const CoupledResponse& coupled, double max_crush_m) {
+  std::vector<std::string> lines;
+  const auto at = static_cast<std::size_t>(
+      std::lower_bound(coupled.time_s.begin(), coupled.time_s.end(), phases.start_time_s) - coupled.time_s.begin());
+  if (phases.start_time_s > 0.0 && at < coupled.time_s.size())
+    lines.push_back(fmt::format(
+        "two phases: the body starts at {:.4g} s as the case says; coupled it has pitched {:.3g} "
+        "rad by then, at {:.3g} rad/s, and heaves at {:.3g} m/s",
+        phases.start_time_s, coupled.pitch_rad[at], coupled.pitch_rate_radps[at], coupled.heave_velocity_mps[at]));
+  lines.push_back(fmt::format(
+      "coupled: pitching moves the front where the force acts, so the crush there is {:.4f} m instead of {:.4f} m",
+      coupled.max_crush_m, max_crush_m));
+  return lines;
+}
+
+TraceSet trace_set(
+    std::string path,
+    std::initializer_list<std::tuple<const char*, Dimension, std::vector<double>, std::vector<double>>> channels) {
+  TraceSet set;
+  set.path = std::move(path);
+  for (const auto& [name, dimension, times, values] : channels) {
+    if (values.empty()) continue;
+    Trace trace;
+    trace.name = name;
+    trace.id = std::to_string(set.traces.size() + 2);
+    trace.dimension = dimension;
+    trace.time_s = std::make_shared<const std::vector<double>>(times);
+    trace.values = values;
+    set.traces.push_back(std::move(trace));
+  }
+  return set;
+}
+
+template <class Motion>
+TraceSet motion_set(const char* path, const Motion& motion) {
+  return trace_set(path, {{"heave_m", Dimension::length, motion.time_s, motion.heave_m},
+                          {"pitch_rad", Dimension::angle, motion.time_s, motion.pitch_rad},
+                          {"heave_velocity_mps", Dimension::speed, motion.time_s, motion.heave_velocity_mps},
+                          {"pitch_rate_radps", Dimension::angular_rate, motion.time_s, motion.pitch_rate_radps}});
+}
+
+TraceSet measured_set(const MeasuredMotion& m) {
+  return trace_set(
+      "measured motion",
+      {{"heave_m", Dimension::length, m.heave_m.time_s, m.heave_m.values},
+       {"pitch_rad", Dimension::angle, m.pitch_rad.time_s, m.pitch_rad.values},
+       {"heave_velocity_mps", Dimension::speed, m.heave_velocity_mps.time_s, m.heave_velocity_mps.values},
+       {"pitch_rate_radps", Dimension::angular_rate, m.pitch_rate_radps.time_s, m.pitch_rate_radps.values}});
+}
+
+}  // namespace
+
+void simulate_heave_and_pitch(const Case& study, double impact_speed_mps, CaseResult& out) {
+  const PitchForcing forcing = find_forcing(study, out);
+  out.pitch = simulate_pitch(vehicle_of(study, out), forcing, study.motion);
+  if (!study.what.coupled) return;
+  out.coupled = run_coupled(study, impact_speed_mps, forcing, out);
+  if (out.pitch->usable() && out.coupled->usable())
+    append(differences(*out.pitch, *out.coupled, out.response.max_crush_m), out.notes);
+}
+
+void compare_heave_and_pitch(const Case& study, CaseResult& out) {
+  MotionOptions options = study.measured;
+  options.file = resolved(study, study.measured.file);
+  const MeasuredMotion measured = read_motion(options);
+  append(measured.input_files, out.input_files);
+  append(measured.warnings, out.notes);
+  const TraceSet test = measured_set(measured);
+  CompareOptions compared = study.comparison;
+  compared.channels.clear();
+  if (out.coupled && out.coupled->usable())
+    out.comparisons.push_back({"heave_and_pitch_coupled", "heave and pitch, coupled",
+                               compare(test, motion_set("coupled", *out.coupled), compared)});
+  if (!out.pitch->usable()) return;
+  compared.start_s = std::fmax(compared.start_s, out.pitch->start_time_s);
+  out.comparisons.push_back(
+      {"heave_and_pitch", "heave and pitch", compare(test, motion_set("pitch", *out.pitch), compared)});
+}
+
+}  // namespace crashsim
