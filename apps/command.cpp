@@ -92,6 +92,13 @@ std::vector<ConfigEntry> Command::config_entries() const {
   return entries;
 }
 
+std::vector<std::string_view> Command::shared_keys() const {
+  std::vector<std::string_view> keys = {"output", "overwrite", "json", "quiet"};
+  std::erase_if(keys,
+                [&](std::string_view key) { return app_.get_option_no_throw("--" + std::string(key)) == nullptr; });
+  return keys;
+}
+
 bool Command::set_shared(const ConfigEntry& entry) {
   const std::string what = entry.where + ": " + entry.key;
   const CLI::Option* named = app_.get_option_no_throw("--" + entry.key);

@@ -52,7 +52,7 @@ class Command {
   void resolve(Bound<S>&... bound) {
     for (const ConfigEntry& entry : config_entries()) {
       if (set_shared(entry) || (... || bound.flags.set_from_config(bound.values, entry))) continue;
-      std::vector<std::string_view> known = {"output", "overwrite", "json", "quiet"};
+      std::vector<std::string_view> known = shared_keys();
       [[maybe_unused]] const auto append = [&](const auto& names) {
         known.insert(known.end(), names.begin(), names.end());
       };
@@ -90,7 +90,9 @@ class Command {
 
  private:
   [[nodiscard]] std::vector<ConfigEntry> config_entries() const;
-  /// Sets a flag that all subcommands have; false when the key is none.
+  /// Keys of the flags that this subcommand shares with others.
+  [[nodiscard]] std::vector<std::string_view> shared_keys() const;
+  /// Sets one of them; false when the key is none.
   bool set_shared(const ConfigEntry& entry);
 
   CLI::App& app_;

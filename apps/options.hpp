@@ -57,7 +57,7 @@ class Flags {
       const std::string what = "--" + std::string(field->flag);
       const auto given = given_.find(field);
       if (given == given_.end())
-        set_option(values, *field, true, what);
+        set_option(values, *field, option->template as<bool>(), what);  // --flag, --flag=false
       else if (std::holds_alternative<std::vector<std::string> S::*>(field->member))
         set_option(values, *field, given->second, what);
       else

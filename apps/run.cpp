@@ -23,7 +23,7 @@ std::vector<std::string> command_line_of(const Record& record) {
     if (const auto* texts = std::get_if<std::vector<std::string>>(&entry.value)) {
       for (const std::string& text : *texts) line.push_back(flag + "=" + text);
     } else if (const auto* is_on = std::get_if<bool>(&entry.value)) {
-      if (*is_on) line.push_back(flag);
+      line.push_back(flag + (*is_on ? "=true" : "=false"));
     } else if (const std::string text = text_of(entry.value); !text.empty()) {
       line.push_back(flag + "=" + text);
     }

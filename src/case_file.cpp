@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,7 +60,11 @@ void set(Case& study, const ConfigEntry& entry) {
   bool known = false;
   for_each_key(study, [&](std::string_view section, const auto& field, auto& options) {
     const Place place = place_of(section, field);
-    const bool is_named = section.empty() ? entry.key == place.key : is_key_of(option_key(entry), field);
+    using Options = std::remove_cvref_t<decltype(options)>;
+    constexpr bool has_table = std::is_same_v<Options, ForcingOptions> || std::is_same_v<Options, MotionOptions>;
+    const std::string_view key = option_key(entry);
+    if (key != entry.key && !has_table) return;  // a key of `force = {..}`
+    const bool is_named = section.empty() ? entry.key == place.key : is_key_of(key, field);
     if (known || place.section != entry.section || !is_named) return;
     const std::string path = place.section.empty() ? "" : fmt::format("[{}] ", place.section);
     set_option(options, field, entry.value, fmt::format("{}: {}{}", entry.where, path, entry.key));
@@ -92,8 +97,33 @@ void check_unloading(const Case& study) {
         fmt::format("{}: [crush] has both unloading_stiffness and restitution: give one of them", study.path));
 }
 
+/// What heave and pitch need, before anything is computed.
+void check_pitch(const Case& study) {
+  const auto in_section = [&](std::string_view section, const auto& check) {
+    try {
+      check();
+    } catch (const InvalidInput& problem) {
+      throw InvalidInput(fmt::format("{}: [{}] {}", study.path, section, problem.what()));
+    }
+  };
+  if (has_pitch(study)) {
+    HeavePitchModel vehicle = study.vehicle;
+    vehicle.mass_kg = 1.0;  // comes with the crush
+    in_section("vehicle", [&] { validate(vehicle); });
+    in_section("pitch", [&] { validate(study.vertical); });
+  } else if (!study.measured.file.empty()) {
+    throw InvalidInput(
+        fmt::format("{}: [compare] motion needs heave and pitch to compare with: describe the [vehicle]", study.path));
+  }
+  if (study.measured.file.empty()) return;
+  for (const auto place :
+       {&MotionOptions::front_position_m, &MotionOptions::rear_position_m, &MotionOptions::cg_position_m})
+    in_section("compare", [&] { require_set(study.measured, place, "motion", "there is a trace"); });
+}
+
 void check(const Case& study) {
   check_speeds(study);
+  check_pitch(study);
   check_unloading(study);
   if (study.what.pulse_file.empty() && study.what.model_file.empty())
     throw InvalidInput(
@@ -112,7 +142,12 @@ std::string resolved(const Case& study, const std::string& path) {
 }
 
 bool has_pitch(const Case& study) {
-  return !std::isnan(study.vehicle.pitch_inertia_kgm2) || !study.forcing.file.empty();
+  const std::vector<ConfigEntry> asked = entries_of(study), defaults = entries_of(Case{});
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const bool is_pitch = asked[i].section == "pitch" || (asked[i].section == "vehicle" && asked[i].key != "mass");
+    if (is_pitch && asked[i].value != defaults[i].value) return true;
+  }
+  return false;
 }
 
 std::string prediction_name(double speed_mps) { return fmt::format("{:.4g}kmh", 3.6 * speed_mps); }

@@ -35,9 +35,15 @@ Summary summarize(const CaseResult& result) {
   if (result.response.outcome == CrushOutcome::not_run)
     return {{"outcome", std::string(name_of(result.identification->outcome)), "outcome"}};
   Summary summary = summarize(result.response, result.model.mass_kg);
+  std::string& outcome = std::get<std::string>(summary.front().value);
+  const auto fail = [&](const auto& part) {  // the first that failed is the outcome of all
+    if (outcome == name_of(CrushOutcome::completed) && !part.usable()) outcome = name_of(part.outcome);
+  };
+  if (result.pitch) fail(*result.pitch);
+  if (result.coupled) fail(*result.coupled);
+  for (const Prediction& prediction : result.predictions) fail(prediction.response);
   if (!result.pitch) return summary;
   const Summary pitch = summarize(*result.pitch);
-  if (!result.pitch->usable()) summary.front() = pitch.front();
   summary.insert(summary.end(), pitch.begin() + 1, pitch.end());
   return summary;
 }

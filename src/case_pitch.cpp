@@ -4,9 +4,12 @@
 #include <cmath>
 #include <initializer_list>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include <crashsim/error.hpp>
 
 #include "case_sections.hpp"
 
@@ -24,6 +27,12 @@ HeavePitchModel vehicle_of(const Case& study, const CaseResult& out) {
   return vehicle;
 }
 
+/// Time of impact in a trace that is the pulse's, too.
+void set_time_zero(const Case& study, const std::string& file, const CaseResult& out, double& time_zero_s) {
+  const bool is_pulse = out.pulse && file == resolved(study, study.what.pulse_file);
+  if (std::isnan(time_zero_s) && is_pulse) time_zero_s = out.pulse->time_zero_s;
+}
+
 /// The force that the case names. The simulated crush force acts where there is no file, and beside a vertical force
 /// where the vehicle says at which height.
 PitchForcing find_forcing(const Case& study, CaseResult& out) {
@@ -34,12 +43,16 @@ PitchForcing find_forcing(const Case& study, CaseResult& out) {
   } else {
     ForcingOptions options = study.forcing;
     options.file = resolved(study, study.forcing.file);
+    set_time_zero(study, options.file, out, options.time_zero_s);
     out.forcing = read_forcing(options);
     append(out.forcing->input_files, out.input_files);
     forcing = out.forcing->forcing;
     const HeavePitchModel& vehicle = study.vehicle;
-    if (forcing.longitudinal_force_n.empty() && !std::isnan(vehicle.cg_height_m) && !std::isnan(vehicle.force_height_m))
+    if (forcing.longitudinal_force_n.empty() && !std::isnan(vehicle.cg_height_m) &&
+        !std::isnan(vehicle.force_height_m)) {
       forcing.longitudinal_force_n = simulated.longitudinal_force_n;
+      out.forcing->steps.emplace_back("longitudinal force: of the simulated crush, at force_height");
+    }
     if (std::isnan(forcing.t_m_s)) forcing.t_m_s = simulated.t_m_s;
   }
   if (!is_active(study.vertical)) return forcing;
@@ -56,8 +69,23 @@ CoupledResponse run_coupled(const Case& study, double impact_speed_mps, const Pi
   options.impact_speed_mps = impact_speed_mps;
   options.end_time_s = study.motion.end_time_s;
   options.dt_s = study.motion.dt_s;
+  options.rtol = std::max(study.motion.rtol, 1e-10);  // the tightest it takes
   const CoupledModel model{out.model, vehicle_of(study, out), study.vertical, study.ground};
   return simulate_coupled(model, options, is_active(study.vertical) ? TimeSeries{} : forcing.vertical_force_n);
+}
+
+/// What the case says of the two phases only.
+std::vector<std::string> left_out(const Case& study, const CaseResult& out) {
+  std::vector<std::string> lines;
+  const PitchOptions& motion = study.motion;
+  if (motion.heave_m != 0.0 || motion.heave_velocity_mps != 0.0 || motion.pitch_rad != 0.0 ||
+      motion.pitch_rate_radps != 0.0)
+    lines.emplace_back("coupled: starts at impact in static equilibrium, without the initial motion of [pitch]");
+  if (!study.forcing.longitudinal_channels.empty())
+    lines.emplace_back("coupled: the longitudinal force is that of the crush model, not the one measured");
+  if (out.forcing && !out.forcing->forcing.force_height_m.empty())
+    lines.emplace_back("coupled: the force acts at force_height all the time, not at the height measured");
+  return lines;
 }
 
 /// Where the two phases and the coupled motion differ, and why.
@@ -116,8 +144,11 @@ TraceSet measured_set(const MeasuredMotion& m) {
 void simulate_heave_and_pitch(const Case& study, double impact_speed_mps, CaseResult& out) {
   const PitchForcing forcing = find_forcing(study, out);
   out.pitch = simulate_pitch(vehicle_of(study, out), forcing, study.motion);
+  if (!study.what.coupled && study.ground != GroundContact())
+    out.notes.emplace_back("lift_off and bump stops act in the coupled model only: set [pitch] coupled");
   if (!study.what.coupled) return;
   out.coupled = run_coupled(study, impact_speed_mps, forcing, out);
+  append(left_out(study, out), out.notes);
   if (out.pitch->usable() && out.coupled->usable())
     append(differences(*out.pitch, *out.coupled, out.response.max_crush_m), out.notes);
 }
@@ -125,6 +156,7 @@ void simulate_heave_and_pitch(const Case& study, double impact_speed_mps, CaseRe
 void compare_heave_and_pitch(const Case& study, CaseResult& out) {
   MotionOptions options = study.measured;
   options.file = resolved(study, study.measured.file);
+  set_time_zero(study, options.file, out, options.time_zero_s);
   const MeasuredMotion measured = read_motion(options);
   append(measured.input_files, out.input_files);
   append(measured.warnings, out.notes);

@@ -80,7 +80,8 @@ void write_file_atomically(const std::string& path, std::string_view text, bool 
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) throw InvalidInput(fmt::format("{}: is a folder: name a file to write", path));
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(path, text);
-  if (fs::exists(status) && !overwrite) throw InvalidInput(fmt::format("{}: exists already", path));
+  if (fs::exists(status) && !overwrite)
+    throw InvalidInput(fmt::format("{}: exists already: choose another name", path));
   write_beside_and_rename(path, text);
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -84,20 +82,15 @@ class Source {
   MeasuredForcing& out_;
 };
 
-/// Adds b to a, on a's times; zero where b has none.
-void add(TimeSeries& a, const TimeSeries& b, double weight) {
+/// Adds b to a. @throws InvalidInput naming `what` when they are not on one clock.
+void add(TimeSeries& a, const TimeSeries& b, double weight, const std::string& what) {
   if (a.empty()) {
-    a = b;
-    for (double& value : a.values) value *= weight;
-    return;
+    a = {b.time_s, std::vector<double>(b.values.size(), 0.0)};
+  } else if (a.time_s != b.time_s) {
+    throw InvalidInput(
+        fmt::format("{}: has other times than the channels before it: only channels of one clock add up", what));
   }
-  std::vector<double> inside;
-  std::copy_if(a.time_s.begin(), a.time_s.end(), std::back_inserter(inside),
-               [&](double t) { return t >= b.time_s.front() && t <= b.time_s.back(); });
-  const std::vector<double> values = resample(b.time_s, b.values, inside);
-  const auto first =
-      static_cast<std::size_t>(std::lower_bound(a.time_s.begin(), a.time_s.end(), b.time_s.front()) - a.time_s.begin());
-  for (std::size_t i = 0; i < values.size(); ++i) a.values[first + i] += weight * values[i];
+  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] += weight * b.values[i];
 }
 
 double impulse_of(const TimeSeries& force) { return integrate(force.time_s, force.values, 0.0).back(); }
@@ -112,62 +105,95 @@ struct Rows {
 };
 
 /// Height of the force where it is clear of noise, held between.
-TimeSeries height_of(const Rows& rows) {
-  const auto largest = *std::max_element(rows.force.values.begin(), rows.force.values.end());
+TimeSeries height_of(const Rows& rows, const std::vector<double>& heights, const std::string& path,
+                     std::vector<std::string>& warnings) {
+  const double largest = *std::max_element(rows.force.values.begin(), rows.force.values.end());
+  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
   TimeSeries height;
   for (std::size_t i = 0; i < rows.force.values.size(); ++i) {
-    if (rows.force.values[i] < kClearForce * largest) continue;
+    if (!(rows.force.values[i] > kClearForce * largest)) continue;
     height.time_s.push_back(rows.force.time_s[i]);
     height.values.push_back(rows.moment.values[i] / rows.force.values[i]);
   }
+  if (height.values.size() < 2)
+    throw InvalidInput(
+        fmt::format("{}: the longitudinal channels add up to no force whose height could be told", path));
+  const auto outside = std::count_if(height.values.begin(), height.values.end(),
+                                     [low = *lowest, high = *highest](double h) { return h < low || h > high; });
+  if (outside > 0)
+    warnings.push_back(
+        fmt::format("{}: the height of the force lies outside the rows, {:g} to {:g} m, in {} of {} samples: "
+                    "some rows pull",
+                    path, *lowest, *highest, outside, height.values.size()));
   return height;
 }
 
 void set_longitudinal(const Source& source, const std::vector<const Trace*>& channels, const ForcingOptions& options,
                       const std::string& path, MeasuredForcing& out) {
-  if (channels.empty()) return;
   const std::vector<double>& heights = options.row_heights_m;
+  if (channels.empty() && !heights.empty())
+    throw InvalidInput(
+        fmt::format("{}: row_heights_m are given, but no longitudinal channels that they belong to", path));
+  if (channels.empty()) return;
   if (!heights.empty() && heights.size() != channels.size())
     throw InvalidInput(fmt::format("{}: row_heights_m has {} heights for {} longitudinal channels: one each is needed",
                                    path, heights.size(), channels.size()));
   Rows rows;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const TimeSeries force = source.force(*channels[i]);
-    add(rows.force, force, 1.0);
-    if (!heights.empty()) add(rows.moment, force, heights[i]);
+    add(rows.force, force, 1.0, source.what(*channels[i]));
+    if (!heights.empty()) add(rows.moment, force, heights[i], source.what(*channels[i]));
   }
   if (impulse_of(rows.force) < 0.0) {
     turn(rows.force);
     turn(rows.moment);
     out.steps.emplace_back("longitudinal force: sign turned, so that it stops the vehicle");
   }
-  if (!heights.empty()) out.forcing.force_height_m = height_of(rows);
+  if (!heights.empty()) out.forcing.force_height_m = height_of(rows, heights, path, out.warnings);
   out.forcing.longitudinal_force_n = std::move(rows.force);
 }
 
-/// Time at which the mean of velocities, turned to start positive, comes to zero.
-double end_of_velocity(const std::vector<const Trace*>& channels) {
-  TimeSeries mean;
-  for (const Trace* channel : channels)
-    add(mean, {{channel->times().begin(), channel->times().end()}, channel->values}, 1.0);
-  if (mean.values.front() < 0.0) turn(mean);
-  return find_max_crush(mean.time_s, differentiate(mean.time_s, mean.values), mean.values,
-                        integrate(mean.time_s, mean.values, 0.0))
-      .t_m_s;
-}
-
-void set_t_m(const Source& source, const Names& velocities, const ForcingOptions& options, MeasuredForcing& out) {
-  out.forcing.t_m_s = options.t_m_s;
-  const std::vector<const Trace*> channels = source.pick(velocities);
-  if (!std::isnan(options.t_m_s) || channels.empty()) return;
-  for (const Trace* channel : channels)
+/// Time at which velocities, turned to start positive, come to zero in their mean; unset when they do not.
+double end_of_velocity(const Source& source, const std::vector<const Trace*>& channels) {
+  TimeSeries sum;
+  for (const Trace* channel : channels) {
     if (channel->dimension != Dimension::speed)
       throw InvalidInput(fmt::format("{}: measures {}; a velocity is needed", source.what(*channel),
                                      dimension_name(channel->dimension)));
-  out.forcing.t_m_s = end_of_velocity(channels);
-  out.steps.push_back(std::isnan(out.forcing.t_m_s)
-                          ? "time of maximum crush: none, the velocity does not come to zero"
-                          : fmt::format("time of maximum crush: {:.6g} s, where the velocity ends", out.forcing.t_m_s));
+    add(sum, {{channel->times().begin(), channel->times().end()}, channel->values}, 1.0, source.what(*channel));
+  }
+  if (sum.values.front() < 0.0) turn(sum);
+  return find_max_crush(sum.time_s, differentiate(sum.time_s, sum.values), sum.values,
+                        integrate(sum.time_s, sum.values, 0.0))
+      .t_m_s;
+}
+
+/// The time of maximum crush: given, or where velocities end that are named or our own.
+void set_t_m(const Source& source, const ForcingOptions& options, MeasuredForcing& out) {
+  out.forcing.t_m_s = options.t_m_s;
+  const bool is_named = !options.velocity_channels.empty();
+  if (!std::isnan(options.t_m_s) || (!is_named && source.find("velocity_mps") == nullptr)) return;
+  const std::vector<const Trace*> channels = source.pick(is_named ? options.velocity_channels : Names{"velocity_mps"});
+  const double end_s = end_of_velocity(source, channels);
+  if (std::isnan(end_s)) {
+    if (is_named)
+      throw InvalidInput(
+          fmt::format("{}: does not come from a speed to zero, so there is no time of maximum crush: give "
+                      "t_m or another velocity, or start at impact or a time",
+                      source.what(*channels.front())));
+    return;
+  }
+  out.forcing.t_m_s = end_s - (std::isnan(options.time_zero_s) ? 0.0 : options.time_zero_s);
+  out.steps.push_back(fmt::format("time of maximum crush: {:.6g} s, where the velocity ends", out.forcing.t_m_s));
+}
+
+/// Puts every series on a clock that starts at impact.
+void start_at_impact(double time_zero_s, MeasuredForcing& out) {
+  if (std::isnan(time_zero_s) || time_zero_s == 0.0) return;
+  for (TimeSeries* series :
+       {&out.forcing.vertical_force_n, &out.forcing.longitudinal_force_n, &out.forcing.force_height_m})
+    for (double& t : series->time_s) t -= time_zero_s;
+  out.steps.push_back(fmt::format("forces: impact is at {:.6g} s of their trace", time_zero_s));
 }
 
 /// Selectors, or the names that crashsim writes.
@@ -193,7 +219,8 @@ MeasuredForcing read_forcing(const ForcingOptions& options) {
   Names along = or_own(options.longitudinal_channels, is_default, source, {"longitudinal_force_n"});
   if (along.empty()) along = or_own({}, is_default, source, {"spring_force_n", "damper_force_n"});
   for (const Trace* trace : source.pick(or_own(options.vertical_channels, is_default, source, {"vertical_force_n"})))
-    add(out.forcing.vertical_force_n, source.force(*trace), options.vertical_sign == VerticalSign::up ? -1.0 : 1.0);
+    add(out.forcing.vertical_force_n, source.force(*trace), options.vertical_sign == VerticalSign::up ? -1.0 : 1.0,
+        source.what(*trace));
   set_longitudinal(source, source.pick(along), options, path, out);
   if (out.forcing.vertical_force_n.empty() && out.forcing.longitudinal_force_n.empty())
     throw InvalidInput(
@@ -208,7 +235,8 @@ MeasuredForcing read_forcing(const ForcingOptions& options) {
       throw InvalidInput(fmt::format("{}: the height of the force is given twice: one channel or row_heights_m", path));
     out.forcing.force_height_m = {{trace->times().begin(), trace->times().end()}, trace->values};
   }
-  set_t_m(source, or_own(options.velocity_channels, true, source, {"velocity_mps"}), options, out);
+  set_t_m(source, options, out);
+  start_at_impact(options.time_zero_s, out);
   return out;
 }
 

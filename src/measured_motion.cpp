@@ -1,5 +1,6 @@
 #include <crashsim/measured_motion.hpp>
 
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -37,8 +38,9 @@ BodyStation station(double position_m, const std::vector<const Trace*>& channels
 
 MeasuredMotion read_motion(const MotionOptions& options) {
   validate_options(options, "MotionOptions");
-  require_set(options, &MotionOptions::front_position_m, "MotionOptions", "there are channels");
-  require_set(options, &MotionOptions::rear_position_m, "MotionOptions", "there are channels");
+  for (const auto place :
+       {&MotionOptions::front_position_m, &MotionOptions::rear_position_m, &MotionOptions::cg_position_m})
+    require_set(options, place, "MotionOptions", "there is a trace");
   const TraceSet set = read_traces(options.file, {{}, options.columns, options.units});
   const auto front = station_channels(set, options.front_channels, "front");
   const auto rear = station_channels(set, options.rear_channels, "rear");
@@ -55,6 +57,9 @@ MeasuredMotion read_motion(const MotionOptions& options) {
       throw InvalidInput(fmt::format("{}: the {} station has no {} channel, the other has: both are needed", set.path,
                                      at_front.traces.empty() ? "front" : "rear", dimension_name(dimension)));
     BodyMotion motion = body_motion(at_front, at_rear, options.cg_position_m, options.motion_sign);
+    if (!std::isnan(options.time_zero_s))
+      for (TimeSeries* series : {&motion.heave, &motion.pitch})
+        for (double& t : series->time_s) t -= options.time_zero_s;
     *heave = std::move(motion.heave);
     *pitch = std::move(motion.pitch);
   }

@@ -1,5 +1,6 @@
 #include "pitch_input.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -22,6 +23,9 @@ void note_cut_force(const TimeSeries& force, std::string_view name, double start
   if (force.empty()) return;
   double largest = 0.0;
   for (const double f : force.values) largest = std::max(largest, std::abs(f));
+  if (largest > 0.0 && force.time_s.back() <= start_s)
+    notes.push_back(
+        fmt::format("{} ends at {:.6g} s, before the motion starts: it does nothing", name, force.time_s.back()));
   const auto note = [&](double t, double f, std::string_view verb, std::string_view side) {
     if (t <= start_s || t >= end_s || std::abs(f) <= kNegligibleForce * largest) return;
     notes.push_back(fmt::format("{} {} at {:.6g} s with {:.6g} N, {:.0f} % of its largest: it is zero {} that", name,

@@ -168,6 +168,7 @@ Pulse make_pulse(const TraceSet& traces, const PulseOptions& options) {
   PulseChannels channels = prepare_channels(traces, options);
   const double t0_s = process(channels, options, traces.path);
   Pulse pulse;
+  pulse.time_zero_s = t0_s;
   pulse.mass_kg = std::isnan(options.mass_kg) ? traces.mass_kg : options.mass_kg;
   pulse.input_files = traces.input_files;
   pulse.warnings = traces.warnings;

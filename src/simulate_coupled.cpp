@@ -114,6 +114,12 @@ void add_notes(const TimeSeries& vertical_force_n, CoupledResponse& out) {
   const double crush = std::ranges::max(out.crush_m);
   if (crush > out.max_crush_m * (1.0 + kNegligible))
     out.notes.push_back(fmt::format("crush is up to {:.4g} m after t_m: pitching drives the front in again", crush));
+  if (crush > out.static_crush_m)
+    out.notes.push_back(
+        fmt::format("the front is {:.4g} m in after contact was lost at {:.4g} m of crush: pitching drives it into the "
+                    "barrier again, "
+                    "which the model leaves out; its motion after {:.4g} s is not to be relied on",
+                    crush, out.static_crush_m, out.separation_s));
   const auto [least, most] = std::ranges::minmax(out.pitch_rad);
   if (std::max(-least, most) > kSmallAngle)
     out.notes.push_back(

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <crashsim/config.hpp>
+#include <crashsim/coupled_model.hpp>
 #include <crashsim/error.hpp>
 #include <crashsim/files.hpp>
 
@@ -33,6 +34,13 @@ std::vector<ConfigEntry> entries_of_toml(const std::string& path) {
   return entries;
 }
 
+/// Keys that are not of the heave-pitch model: for people, or the coupled model's.
+bool is_for_others(const std::string& key) {
+  const auto& ground = fields<GroundContact>;
+  return std::find(std::begin(kForPeople), std::end(kForPeople), key) != std::end(kForPeople) ||
+         std::any_of(ground.begin(), ground.end(), [&](const auto& field) { return is_key_of(key, field); });
+}
+
 }  // namespace
 
 std::vector<FileKey> vehicle_keys() {
@@ -46,13 +54,12 @@ std::vector<FileKey> vehicle_keys() {
 HeavePitchModel read_vehicle(const std::string& path) {
   const std::string text = read_file(path);
   HeavePitchModel model;
-  for (const ConfigEntry& entry : trimmed(text).starts_with('{') ? entries_of_json(text, path) : entries_of_toml(path))
-    if (std::find(std::begin(kForPeople), std::end(kForPeople), entry.key) == std::end(kForPeople))
-      set_from(model, entry);
-  try {
-    validate(model);
-  } catch (const InvalidInput& problem) {
-    throw InvalidInput(fmt::format("{}: {}", path, problem.what()));
+  for (const ConfigEntry& entry :
+       trimmed(text).starts_with('{') ? entries_of_json(text, path) : entries_of_toml(path)) {
+    if (entry.key == "format")
+      throw InvalidInput(
+          fmt::format("{}: is a {}, not a vehicle: see crashsim schema vehicle", path, text_of(entry.value)));
+    if (!is_for_others(entry.key)) set_from(model, entry);
   }
   return model;
 }

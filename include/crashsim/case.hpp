@@ -124,7 +124,7 @@ struct CaseResult {
 CaseResult run_case(const Case& study, const Progress& progress = {});
 
 /// Summary of a result: of the model's response and its heave and pitch; and parts "pulse", "identification",
-/// "comparison".
+/// "coupled", "rating_..", "prediction_..".
 Summary summarize(const CaseResult& result);
 std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& result);
 

@@ -27,11 +27,12 @@ struct ForcingOptions {
   double t_m_s = kUnset;                       ///< Time of maximum crush [s]; unset: where the velocity ends.
   std::vector<std::string> velocity_channels;  ///< Longitudinal velocity of the vehicle (averaged), either sign; empty:
                                                ///< `velocity_mps` where the file has it.
-  std::string columns, units;                  ///< As in ReadOptions.
+  double time_zero_s = kUnset;  ///< Impact on the file's clock [s]; unset: 0, in a case the pulse's of the same file.
+  std::string columns, units;   ///< As in ReadOptions.
 
   bool operator==(const ForcingOptions&) const = default;
 };
-inline constexpr std::array<Field<ForcingOptions>, 11> kForcingFields = {{
+inline constexpr std::array<Field<ForcingOptions>, 12> kForcingFields = {{
     {"file", "force", "", "trace with the barrier's force, or a response.csv", &ForcingOptions::file},
     {"vertical_channels", "channel", "", "channels of the vertical force on the vehicle (summed)",
      &ForcingOptions::vertical_channels},
@@ -49,6 +50,7 @@ inline constexpr std::array<Field<ForcingOptions>, 11> kForcingFields = {{
      positive()},
     {"velocity_channels", "velocity", "", "channels of the vehicle's longitudinal velocity (averaged)",
      &ForcingOptions::velocity_channels},
+    {"time_zero_s", "force-t0", "s", "time of impact in that trace; default 0", &ForcingOptions::time_zero_s},
     {"columns", "columns", "", "columns of a CSV file: time:ms,force:kN", &ForcingOptions::columns},
     {"units", "units", "", "unit system of FE output: kg-m-s, t-mm-s, kg-mm-ms, g-mm-ms", &ForcingOptions::units},
 }};

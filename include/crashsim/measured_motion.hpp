@@ -20,20 +20,25 @@ struct MotionOptions {
   std::vector<std::string> rear_channels;   ///< At the rear station.
   double front_position_m = kUnset;         ///< Of the front station [m].
   double rear_position_m = kUnset;          ///< Of the rear station [m].
-  double cg_position_m = 0.0;               ///< Of the centre of gravity [m].
+  double cg_position_m = kUnset;            ///< Of the centre of gravity [m].
+  double time_zero_s = kUnset;  ///< Impact on the file's clock [s]; unset: 0, in a case the pulse's of the same file.
   VerticalSign motion_sign = VerticalSign::up;
   std::string columns, units;  ///< As in ReadOptions.
 
   bool operator==(const MotionOptions&) const = default;
 };
-inline constexpr std::array<Field<MotionOptions>, 9> kMotionFields = {{
+inline constexpr std::array<Field<MotionOptions>, 10> kMotionFields = {{
     {"file", "motion", "", "trace with the body's vertical motion", &MotionOptions::file},
     {"front_channels", "front", "", "vertical displacements and velocities at the front station",
      &MotionOptions::front_channels},
     {"rear_channels", "rear", "", "the same at the rear station", &MotionOptions::rear_channels},
-    {"front_position_m", "front-position", "m", "front station, towards the front", &MotionOptions::front_position_m},
-    {"rear_position_m", "rear-position", "m", "rear station, from the same reference", &MotionOptions::rear_position_m},
-    {"cg_position_m", "cg-position", "m", "centre of gravity, from the same reference", &MotionOptions::cg_position_m},
+    {"front_position_m", "front-position", "m", "place of the front station, counted towards the front",
+     &MotionOptions::front_position_m},
+    {"rear_position_m", "rear-position", "m", "place of the rear station, from the same reference",
+     &MotionOptions::rear_position_m},
+    {"cg_position_m", "cg-position", "m", "place of the centre of gravity, from the same reference",
+     &MotionOptions::cg_position_m},
+    {"time_zero_s", "motion-t0", "s", "time of impact in that trace; default 0", &MotionOptions::time_zero_s},
     {"motion_sign", "motion-sign", "", "which way vertical channels are positive",
      choice<&MotionOptions::motion_sign>()},
     {"columns", "motion-columns", "", "columns of a CSV file: time:ms,z:mm", &MotionOptions::columns},

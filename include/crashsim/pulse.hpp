@@ -67,6 +67,7 @@ struct Pulse {
   double impact_speed_mps = kUnset;    ///< Speed at time zero [m/s].
   double t_m_s = kUnset;               ///< Time of maximum crush: first zero of v, between samples [s]; unset: none.
   double max_crush_m = kUnset;         ///< Displacement at t_m [m].
+  double time_zero_s = 0.0;            ///< Time zero on the clock of the trace it was made from [s].
   std::vector<std::string> channels;   ///< What it was made from: "93 LEFT REAR SEAT CROSSMEMBER X".
   std::vector<std::string> steps;      ///< What was done, in order.
   std::vector<std::string> warnings;   ///< What looked unusual.

@@ -12,9 +12,11 @@ namespace crashsim {
 /// Every key of vehicle.json.
 std::vector<FileKey> vehicle_keys();
 
-/// Reads a vehicle: JSON with the keys of vehicle_keys(), or the [vehicle] table of a TOML file.
-/// @throws InvalidInput with path, key, value and rule when it is missing, neither JSON nor TOML, has an unknown key, a
-///         bad value, or lacks one that every vehicle has.
+/// Reads a vehicle: JSON with the keys of vehicle_keys(), or the [vehicle] table of a TOML file. What it does not say
+/// stays unset; validate() tells what is missing.
+/// @throws InvalidInput with path, key, value and rule when it is missing, neither JSON nor TOML, another kind of file,
+/// or
+///         has an unknown key or a bad value.
 HeavePitchModel read_vehicle(const std::string& path);
 
 }  // namespace crashsim
