@@ -50,7 +50,9 @@ inline auto case_sections() {
                     CaseSection<ForcingOptions>{"pitch", &Case::forcing, {}, {}},
                     CaseSection<HeavePitchModel>{"pitch", &Case::vehicle, {"formulation"}, {}},
                     CaseSection<PitchOptions>{"pitch", &Case::motion, {}, {}},
-                    CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}});
+                    CaseSection<VerticalForceLaw>{"pitch", &Case::vertical, {}, {}},
+                    CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}},
+                    CaseSection<DesignOptions>{"design", &Case::design, {}, {}});
 }
 
 /// Calls visit(section name, field, options of that section) for every key; the fields of CaseOptions name their own

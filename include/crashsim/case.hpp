@@ -10,6 +10,7 @@
 
 #include <crashsim/comparison.hpp>
 #include <crashsim/config.hpp>
+#include <crashsim/design_options.hpp>
 #include <crashsim/forcing.hpp>
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
@@ -19,6 +20,7 @@
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_pitch.hpp>
 #include <crashsim/summary.hpp>
+#include <crashsim/vertical_force.hpp>
 
 namespace crashsim {
 
@@ -75,7 +77,9 @@ struct Case {
   HeavePitchModel vehicle;     ///< [vehicle], its formulation in [pitch]; the mass is that of the crush.
   ForcingOptions forcing;      ///< [pitch] force = {file, channel, ..}; without a file: the simulated crush force.
   PitchOptions motion;         ///< [pitch]
+  VerticalForceLaw vertical;   ///< [pitch]
   CompareOptions comparison;   ///< [compare]
+  DesignOptions design;        ///< [design]
 };
 
 /// Every key of a case file, section by section.

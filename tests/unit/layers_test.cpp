@@ -78,6 +78,8 @@ const std::map<std::string, Layer> kLayers = {
     {"severity", judgement},
     {"vpi", judgement},
 
+    {"design", identification},
+    {"design_options", identification},
     {"identify", identification},
     {"identify_options", identification},
     {"identify_pitch", identification},
@@ -88,6 +90,8 @@ const std::map<std::string, Layer> kLayers = {
     {"case_file", pipeline},
     {"case_outputs", pipeline},
     {"case_sections", pipeline},
+    {"design_case", pipeline},
+    {"design_outputs", pipeline},
     {"model_io", pipeline},
     {"outputs", pipeline},
     {"summary", pipeline},
