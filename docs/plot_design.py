@@ -41,7 +41,7 @@ def draw_curve(axis, rows, comments, result):
         axis.plot(limited[1] * responses[limited[0]], minimised[1] * responses[minimised[0]], marker, ms=11, color=color,
                   ls="none", label=label)
     axis.set(xlabel=limited[2], ylabel=minimised[2], title="Trade-off")
-    axis.legend()
+    axis.legend(loc="lower left")
 
 
 def draw_parameters(axis, rows, comments, result):
@@ -64,8 +64,8 @@ def draw_sensitivities(axis, rows):
         axis.barh([r + (i - (len(parameters) - 1) / 2) * height for r in range(len(responses))], values, height,
                   color=color, label=parameter)
     axis.axvline(0, color="0.7", lw=0.8)
-    axis.set(yticks=range(len(responses)), yticklabels=responses, xlabel="% per %", title="Sensitivities, given model",
-             xscale="symlog")
+    axis.set(yticks=range(len(responses)), yticklabels=responses, xlabel="% per %",
+             title="Sensitivities, given model")
     axis.invert_yaxis()
     axis.legend(fontsize=7)
 

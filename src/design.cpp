@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kConverged = 1e-9;      // relative change of the quantity minimised
 constexpr int kMostSteps = 100;          // of SLSQP, each with a gradient
+constexpr double kPolished = 1e-6;       // the same where COBYLA stops
 constexpr int kMostPolish = 300;         // of COBYLA
 constexpr double kPolishStep = 0.05;     // of the box: COBYLA's first step near an optimum
 constexpr double kFarStep = 0.1;         // and where none is near
@@ -51,8 +52,13 @@ class Study {
         out_(out) {
     total_ = options.minimise == DesignQuantity::none ? 0 : options.starts;
     total_ += static_cast<int>(curve_.size()) * (options.starts + 1);
-    for (const DesignParameter& p : problem_.parameters())
-      out.variables.push_back({p.name, p.unit, p.lower, p.upper, value_of(model, p)});
+    for (const DesignParameter& p : problem_.parameters()) {
+      const double given = value_of(model, p);
+      out.variables.push_back({p.name, p.unit, p.lower, p.upper, given});
+      if (given < p.lower || given > p.upper)
+        out.warnings.push_back(fmt::format("{} = {:.6g} {} of the given model is outside its range {:.6g} to {:.6g}",
+                                           p.name, given, p.unit, p.lower, p.upper));
+    }
     for (const QuantityLimit& limit : limits_) out.limits.push_back({limit.quantity, limit.value});
     out.minimised = options.minimise;
     out.traded = options.trade_off;
@@ -67,6 +73,10 @@ class Study {
       out_.outcome = DesignOutcome::model_failed;
       out_.message = fmt::format("{}: {}", name_of(given.outcome), given.message);
     } else {
+      const double end_s = given.time_s.back();
+      if (given.heave_min_time_s == end_s || given.pitch_max_time_s == end_s)
+        out_.warnings.push_back(fmt::format(
+            "the motion ends at {:g} s while the body still drops or pitches: a later end gives more of both", end_s));
       take_sensitivities();
       if (options_.minimise != DesignQuantity::none) optimise();
       if (out_.outcome == DesignOutcome::not_run) out_.outcome = DesignOutcome::completed;
@@ -133,8 +143,7 @@ std::vector<std::vector<double>> Study::start_points() const {
 /// Where the limits are not kept, their largest excess is minimised first.
 void Study::refine(const ConstrainedFunction& function, std::size_t limits, ConstrainedMinimum& best) {
   const auto search_from = [&](const ConstrainedFunction& f, std::size_t constraints, double step) {
-    return minimize_constrained(ConstrainedAlgorithm::cobyla, f, constraints, best.point, kConverged, kMostPolish,
-                                step);
+    return minimize_constrained(ConstrainedAlgorithm::cobyla, f, constraints, best.point, kPolished, kMostPolish, step);
   };
   if (best.violation > 0.0) {
     const ConstrainedFunction excess = [&](std::span<const double> point, std::span<double> value, std::span<double>) {

@@ -29,8 +29,8 @@ CoupledModel linear_vehicle() {
   model.body = test::oracle_vehicle();
   model.body.mass_kg = 1500.0;
   model.body.pitch_inertia_kgm2 = 2400.0;
-  model.body.front_stiffness_n_per_m = 60e3;
-  model.body.rear_stiffness_n_per_m = 45e3;
+  model.body.front_stiffness_n_per_m = 40e3;
+  model.body.rear_stiffness_n_per_m = 75e3;
   model.body.front_damping_ns_per_m = model.body.rear_damping_ns_per_m = 0.0;
   model.body.cg_height_m = 0.60;
   model.body.force_height_m = 0.52;
