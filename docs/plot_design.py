@@ -41,7 +41,7 @@ def draw_curve(axis, rows, comments, result):
         axis.plot(limited[1] * responses[limited[0]], minimised[1] * responses[minimised[0]], marker, ms=11, color=color,
                   ls="none", label=label)
     axis.set(xlabel=limited[2], ylabel=minimised[2], title="Trade-off")
-    axis.legend(loc="lower left")
+    axis.legend()
 
 
 def draw_parameters(axis, rows, comments, result):

@@ -106,8 +106,8 @@ struct DesignResult {
 
 /// Sensitivities by central differences, extrapolated to a step of 0 (Ridders); one-sided at the end of what a
 /// parameter may be. Optimum: gradients by differences and NLopt's SLSQP from each start, then COBYLA, which needs no
-/// gradients and so passes kinks, from the best. Trade-off: the same under each limit, also from the neighbours'
-/// optima.
+/// gradients and may get further where a kink stops SLSQP, from the best. Trade-off: the same under each limit, also
+/// from the neighbours' optima.
 /// @param simulation how to simulate; its rtol is not used: all runs have 1e-10.
 /// @throws InvalidInput on a bad model or option, an unknown parameter, or one that the model leaves unset.
 DesignResult design(const CoupledModel& model, const DesignOptions& options, const CoupledOptions& simulation = {},

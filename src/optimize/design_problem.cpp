@@ -63,9 +63,9 @@ double slope(double at, double a, double at_a, double b, double at_b) {
 
 }  // namespace
 
-DesignProblem::DesignProblem(const CoupledModel& model, const CoupledOptions& simulation,
+DesignProblem::DesignProblem(CoupledModel model, const CoupledOptions& simulation,
                              std::vector<DesignParameter> parameters)
-    : model_(model), simulation_(simulation), parameters_(std::move(parameters)) {
+    : model_(std::move(model)), simulation_(simulation), parameters_(std::move(parameters)) {
   simulation_.rtol = kAccuracy;
 }
 

@@ -26,7 +26,7 @@ struct ResponseSlopes {
 class DesignProblem {
  public:
   /// @param simulation its rtol is set here.
-  DesignProblem(const CoupledModel& model, const CoupledOptions& simulation, std::vector<DesignParameter> parameters);
+  DesignProblem(CoupledModel model, const CoupledOptions& simulation, std::vector<DesignParameter> parameters);
 
   /// Model at a point of the unit box, between the parameters' bounds.
   [[nodiscard]] CoupledModel model_at(std::span<const double> point) const;

@@ -32,7 +32,7 @@ using ConstrainedFunction =
 
 enum class ConstrainedAlgorithm {
   slsqp,  ///< With gradients.
-  cobyla  ///< Without: passes kinks, converges slowly.
+  cobyla  ///< Without: comes near the bottom of a kink, where gradients mislead.
 };
 
 struct ConstrainedMinimum {
