@@ -27,6 +27,8 @@ constexpr Shown kShown[] = {
     // the longest suffix first
     {"_ns_per_m", 1e-3, "kN s/m"},
     {"_n_per_m", 1e-3, "kN/m"},
+    {"_rad_per_m", 1.0, "rad/m"},
+    {"_kgm2", 1.0, "kg m^2"},
     {"_mps2", 1.0, "m/s^2"},
     {"_mps", 1.0, "m/s"},
     {"_kg", 1.0, "kg"},

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "command.hpp"
 #include "comparison_table.hpp"
+#include "folder_command.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 
@@ -33,10 +33,13 @@ std::vector<std::string> command_line_of(const Record& record) {
   return line;
 }
 
-class RunCommand : public Command {
+/// Whether a record holds the options of a case: its command reads them from the record.
+bool is_of_case(const Record& record) { return record.command == "design"; }
+
+class RunCommand : public FolderCommand {
  public:
   explicit RunCommand(CLI::App& parent)
-      : Command(
+      : FolderCommand(
             parent, "run",
             "Run a case: pulse, identification, simulation, heave and pitch, comparison; or an output's record again",
             "crashsim run data/fe-car/case.toml -o fe-car") {
@@ -62,7 +65,9 @@ class RunCommand : public Command {
     options_.values = study.identify;
     resolve(options_);
     study.identify = options_.values;
-    check_outputs(study);
+    std::vector<std::string> inputs = case_inputs(study);
+    inputs.push_back(file_);
+    check_folder(case_file_names(study), inputs);
     const CaseResult result = run_watched(study);
     const std::vector<CaseFile> files = case_files(study, result);
     write_files(files);
@@ -79,26 +84,17 @@ class RunCommand : public Command {
     verify_inputs(record);
     if (record.version != kVersion)
       say(fmt::format("  warning: {} was made by crashsim {}, this is {}", file_, record.version, kVersion));
-    std::vector<std::string> line = command_line_of(record);
+    std::vector<std::string> line =
+        is_of_case(record) ? std::vector<std::string>{record.command, "--", file_} : command_line_of(record);
     std::vector<std::string> shared;
     if (!output().empty()) shared.insert(shared.end(), {"-o", output()});
     if (overwrite()) shared.emplace_back("--overwrite");
     if (json()) shared.emplace_back("--json");
     if (quiet()) shared.emplace_back("--quiet");
-    if (record.command == "identify") shared.push_back(fmt::format("--jobs={}", options_.values.jobs));
+    if (record.command == "identify" || is_of_case(record))
+      shared.push_back(fmt::format("--jobs={}", options_.values.jobs));
     line.insert(line.begin() + 1, shared.begin(), shared.end());
     return run_program(line);
-  }
-
-  void check_outputs(const Case& study) const {
-    if (output() == "-") throw InvalidInput("-o -: a case writes several files: name a folder");
-    if (output().empty()) return check_output({});
-    if (fs::exists(output()) && !fs::is_directory(output()))
-      throw InvalidInput(fmt::format("{}: is a file: name a folder for the outputs of the case", output()));
-    if (!fs::exists(output())) return;
-    std::vector<std::string> inputs = case_inputs(study);
-    inputs.push_back(file_);
-    for (const std::string& name : case_file_names(study)) check_writable(path_of(name), inputs);
   }
 
   CaseResult run_watched(const Case& study) const {
@@ -108,15 +104,6 @@ class RunCommand : public Command {
       line.show(done, total);
       return !interrupted();
     });
-  }
-
-  void write_files(const std::vector<CaseFile>& files) const {
-    if (output().empty()) return;
-    const CooperativeInterrupt finish_first;
-    std::error_code error;
-    fs::create_directories(output(), error);
-    if (error) throw SystemFailure(fmt::format("{}: cannot be made: {}", output(), error.message()));
-    for (const CaseFile& file : files) write_file_atomically(path_of(file.name), file.text, overwrite());
   }
 
   void report(const Case& study, const CaseResult& result) const {
@@ -181,8 +168,6 @@ class RunCommand : public Command {
     else
       say(model);
   }
-
-  [[nodiscard]] std::string path_of(const std::string& name) const { return (fs::path(output()) / name).string(); }
 
   std::string file_;
   Bound<IdentifyOptions> options_;

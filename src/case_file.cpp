@@ -170,8 +170,8 @@ std::vector<FileKey> case_keys() {
   });
   std::stable_sort(keys.begin(), keys.end(), [](const FileKey& a, const FileKey& b) {
     const auto rank = [](const std::string& name) {
-      constexpr std::string_view kOrder[] = {"",         "vehicle",  "impact", "pulse",   "crush",
-                                             "identify", "simulate", "pitch",  "compare", "predict"};
+      constexpr std::string_view kOrder[] = {"",         "vehicle", "impact",  "pulse",   "crush", "identify",
+                                             "simulate", "pitch",   "compare", "predict", "design"};
       return std::find(std::begin(kOrder), std::end(kOrder), name) - std::begin(kOrder);
     };
     return rank(a.section) < rank(b.section);
@@ -184,7 +184,8 @@ Case read_case(const std::string& path) {
   study.path = path;
   std::vector<ConfigEntry> entries;
   if (const auto record = find_record(path)) {
-    if (record->command != "run" || record->arguments.size() != 1)
+    const bool is_case = record->command == "run" || record->command == "design";
+    if (!is_case || record->arguments.size() != 1)
       throw InvalidInput(fmt::format("{}: is the record of 'crashsim {}', not of a case", path, record->command));
     verify_inputs(*record);
     study.path = record->arguments.front();

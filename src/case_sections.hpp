@@ -53,7 +53,8 @@ inline auto case_sections() {
                     CaseSection<VerticalForceLaw>{"pitch", &Case::vertical, {}, {}},
                     CaseSection<GroundContact>{"vehicle", &Case::ground, {}, {}},
                     CaseSection<MotionOptions>{"compare", &Case::measured, {}, {}},
-                    CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}});
+                    CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}},
+                    CaseSection<DesignOptions>{"design", &Case::design, {}, {}});
 }
 
 /// Calls visit(section name, field, options of that section) for every key; the fields of CaseOptions name their own

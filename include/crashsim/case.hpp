@@ -10,6 +10,7 @@
 
 #include <crashsim/comparison.hpp>
 #include <crashsim/config.hpp>
+#include <crashsim/design_options.hpp>
 #include <crashsim/forcing.hpp>
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
@@ -84,6 +85,7 @@ struct Case {
   GroundContact ground;        ///< [vehicle], of the coupled model.
   MotionOptions measured;      ///< [compare] motion = {file, front, rear, ..}: measured heave and pitch.
   CompareOptions comparison;   ///< [compare]
+  DesignOptions design;        ///< [design]
 };
 
 /// Every key of a case file, section by section.

@@ -35,11 +35,12 @@ inline constexpr std::array<CoupledColumn, 16> kCoupledColumns = {{
 }};
 
 /// The summary of a response, in the order in which it is printed.
-inline constexpr std::array<NamedNumber<CoupledResponse>, 22> kCoupledNumbers = {{
+inline constexpr std::array<NamedNumber<CoupledResponse>, 23> kCoupledNumbers = {{
     {"t_m_s", &CoupledResponse::t_m_s, "time of maximum crush"},
     {"max_crush_m", &CoupledResponse::max_crush_m, "maximum crush where the force acts"},
     {"displacement_max_m", &CoupledResponse::displacement_max_m, "largest travel of the centre of gravity"},
     {"displacement_max_time_s", &CoupledResponse::displacement_max_time_s, "time of the largest travel"},
+    {"peak_decel_g", &CoupledResponse::peak_decel_g, "peak deceleration"},
     {"separation_s", &CoupledResponse::separation_s, "time contact was lost"},
     {"static_crush_m", &CoupledResponse::static_crush_m, "crush when contact was lost"},
     {"rebound_velocity_mps", &CoupledResponse::rebound_velocity_mps, "velocity when contact was lost"},

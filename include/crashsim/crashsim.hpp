@@ -8,6 +8,9 @@
 #include <crashsim/coupled_columns.hpp>
 #include <crashsim/coupled_model.hpp>
 #include <crashsim/crush_model.hpp>
+#include <crashsim/design.hpp>
+#include <crashsim/design_case.hpp>
+#include <crashsim/design_options.hpp>
 #include <crashsim/error.hpp>
 #include <crashsim/files.hpp>
 #include <crashsim/forcing.hpp>

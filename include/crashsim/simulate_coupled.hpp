@@ -79,6 +79,7 @@ struct CoupledResponse {
   double rebound_velocity_mps = kUnset;     ///< x' at separation after maximum crush [m/s].
   double displacement_max_m = kUnset;       ///< Largest travel, between samples [m]; its time and the following alike.
   double displacement_max_time_s = kUnset;  ///< [s]
+  double peak_decel_g = kUnset;             ///< Largest deceleration -x'' [g].
   double pitch_max_rad = kUnset;            ///< Largest pitch [rad].
   double pitch_max_time_s = kUnset;         ///< [s]
   double heave_min_m = kUnset;              ///< Smallest heave [m].

@@ -2,6 +2,7 @@
 
 #include <nlopt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -67,6 +68,76 @@ void check(nlopt_result result, const char* what) {
   if (result == NLOPT_INVALID_ARGS) throw NumericalFailure(fmt::format("NLopt refused {}", what));
 }
 
+constexpr double kMargin = 1e-7;  // kept from constraints
+
+/// What the callbacks of a constrained search work on. Objective and constraints are asked for one after the other at
+/// the same point: both come from one evaluation.
+class ConstrainedCall {
+ public:
+  ConstrainedCall(const ConstrainedFunction& function, nlopt_opt optimiser, std::size_t unknowns,
+                  std::size_t constraints)
+      : function_(function), optimiser_(optimiser), values_(1 + constraints), gradients_(values_.size() * unknowns) {}
+
+  static double objective(unsigned n, const double* x, double* gradient, void* data) noexcept {
+    ConstrainedCall& call = *static_cast<ConstrainedCall*>(data);
+    if (!call.move_to({x, n}, gradient != nullptr)) return std::numeric_limits<double>::infinity();
+    if (gradient != nullptr) std::copy_n(call.gradients_.begin(), n, gradient);
+    return call.values_.front();
+  }
+
+  static void constraints(unsigned m, double* result, unsigned n, const double* x, double* gradient,
+                          void* data) noexcept {
+    ConstrainedCall& call = *static_cast<ConstrainedCall*>(data);
+    if (!call.move_to({x, n}, gradient != nullptr)) {
+      std::fill_n(result, m, 1.0);
+      return;
+    }
+    for (unsigned i = 0; i < m; ++i) result[i] = call.values_[i + 1] + kMargin;
+    if (gradient != nullptr) std::copy(call.gradients_.begin() + n, call.gradients_.end(), gradient);
+  }
+
+  /// The best point. @throws what the function threw.
+  ConstrainedMinimum finish() {
+    if (pending_) std::rethrow_exception(std::exchange(pending_, nullptr));
+    return std::move(best_);
+  }
+
+ private:
+  /// Values, and if asked for gradients, of a point. False when there are none.
+  bool move_to(std::span<const double> x, bool with_gradients) noexcept {
+    if (pending_) return false;
+    const bool is_here = std::ranges::equal(point_, x);
+    if (is_here && (has_gradients_ || !with_gradients)) return true;
+    try {
+      point_.assign(x.begin(), x.end());
+      has_gradients_ = with_gradients;
+      function_(x, values_, with_gradients ? std::span<double>(gradients_) : std::span<double>());
+      ++evaluations_;
+      note_best();
+      return true;
+    } catch (...) {
+      pending_ = std::current_exception();
+      nlopt_force_stop(optimiser_);
+      return false;
+    }
+  }
+
+  void note_best() {
+    ConstrainedMinimum here{point_, values_.front(), 0.0, evaluations_};
+    if (values_.size() > 1) here.violation = *std::max_element(values_.begin() + 1, values_.end());
+    if (best_.point.empty() || is_better(here, best_)) best_ = std::move(here);
+    best_.evaluations = evaluations_;
+  }
+
+  const ConstrainedFunction& function_;
+  nlopt_opt optimiser_;
+  std::vector<double> point_, values_, gradients_;
+  bool has_gradients_ = false;
+  int evaluations_ = 0;
+  ConstrainedMinimum best_;
+  std::exception_ptr pending_;
+};
+
 }  // namespace
 
 Minimum minimize_in_unit_box(Algorithm algorithm, const GradientFunction& function, std::span<const double> start,
@@ -87,6 +158,40 @@ Minimum minimize_in_unit_box(Algorithm algorithm, const GradientFunction& functi
   if (call.pending) std::rethrow_exception(std::exchange(call.pending, nullptr));
   check(result, "the problem");
   return call.best;
+}
+
+bool is_better(const ConstrainedMinimum& a, const ConstrainedMinimum& b) {
+  if (std::isfinite(a.value) != std::isfinite(b.value)) return std::isfinite(a.value);
+  const bool a_keeps = a.violation <= 0.0, b_keeps = b.violation <= 0.0;
+  if (a_keeps != b_keeps) return a_keeps;
+  return a_keeps ? a.value < b.value : a.violation < b.violation;
+}
+
+ConstrainedMinimum minimize_constrained(ConstrainedAlgorithm algorithm, const ConstrainedFunction& function,
+                                        std::size_t constraints, std::span<const double> start, double ftol_rel,
+                                        int max_evaluations, double initial_step) {
+  const auto n = static_cast<unsigned>(start.size());
+  Optimiser optimiser(nlopt_create(algorithm == ConstrainedAlgorithm::slsqp ? NLOPT_LD_SLSQP : NLOPT_LN_COBYLA, n));
+  if (!optimiser) throw std::bad_alloc();
+  nlopt_opt opt = optimiser.get();
+  ConstrainedCall call(function, opt, n, constraints);
+  check(nlopt_set_lower_bounds1(opt, 0.0), "lower bounds");
+  check(nlopt_set_upper_bounds1(opt, 1.0), "upper bounds");
+  check(nlopt_set_min_objective(opt, ConstrainedCall::objective, &call), "objective");
+  if (constraints > 0)
+    check(nlopt_add_inequality_mconstraint(opt, static_cast<unsigned>(constraints), ConstrainedCall::constraints, &call,
+                                           nullptr),
+          "constraints");
+  check(nlopt_set_ftol_rel(opt, ftol_rel), "ftol_rel");
+  check(nlopt_set_xtol_abs1(opt, ftol_rel), "xtol_abs");
+  check(nlopt_set_maxeval(opt, max_evaluations), "maxeval");
+  check(nlopt_set_initial_step1(opt, initial_step), "initial step");
+  std::vector<double> point(start.begin(), start.end());
+  double value = kUnset;
+  const nlopt_result result = nlopt_optimize(opt, point.data(), &value);
+  ConstrainedMinimum best = call.finish();
+  check(result, "the problem");
+  return best;
 }
 
 }  // namespace crashsim

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <crashsim/units.hpp>
+
 namespace crashsim {
 namespace {
 
@@ -45,6 +47,7 @@ void CoupledRecorder::on_piece(const CoupledMode& mode, const CoupledStep& step,
     record(mode, t, step.state(t - step.base));
   }
   raise(travel_, step.c[kTravel], 1.0, step, tau_end);
+  raise(decel_, derivative_of(step.c[kSpeed], step.degree), -1.0, step, tau_end);
   raise(pitch_, step.c[kPitch], 1.0, step, tau_end);
   raise(drop_, step.c[kHeave], -1.0, step, tau_end);
   raise(drop_rate_, step.c[kHeaveRate], -1.0, step, tau_end);
@@ -82,6 +85,7 @@ void CoupledRecorder::finish(const CoupledSummary& summary) {
   record(summary.mode, summary.end_time_s, summary.last);
   out_.displacement_max_m = travel_.value;
   out_.displacement_max_time_s = travel_.time_s;
+  out_.peak_decel_g = decel_.value / kStandardGravity;
   out_.pitch_max_rad = pitch_.value;
   out_.pitch_max_time_s = pitch_.time_s;
   out_.heave_min_m = -drop_.value;

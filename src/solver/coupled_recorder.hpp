@@ -26,7 +26,7 @@ class CoupledRecorder {
   const CoupledProblem& problem_;
   const std::vector<double>& times_;
   CoupledResponse& out_;
-  Peak travel_, pitch_, drop_, drop_rate_, front_load_, front_unload_, rear_unload_;
+  Peak travel_, decel_, pitch_, drop_, drop_rate_, front_load_, front_unload_, rear_unload_;
 };
 
 }  // namespace crashsim

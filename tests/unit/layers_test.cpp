@@ -80,6 +80,8 @@ const std::map<std::string, Layer> kLayers = {
     {"severity", judgement},
     {"vpi", judgement},
 
+    {"design", identification},
+    {"design_options", identification},
     {"identify", identification},
     {"identify_options", identification},
     {"identify_pitch", identification},
@@ -91,6 +93,8 @@ const std::map<std::string, Layer> kLayers = {
     {"case_outputs", pipeline},
     {"case_pitch", pipeline},
     {"case_sections", pipeline},
+    {"design_case", pipeline},
+    {"design_outputs", pipeline},
     {"model_io", pipeline},
     {"outputs", pipeline},
     {"summary", pipeline},

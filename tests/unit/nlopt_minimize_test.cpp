@@ -1,5 +1,6 @@
 #include "optimize/nlopt_minimize.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -104,6 +105,75 @@ INSTANTIATE_TEST_SUITE_P(Algorithms, Minimise,
 
 TEST(MinimiseInUnitBox, RefusesAStartOutsideTheBox) {
   EXPECT_THROW(minimize_in_unit_box(Algorithm::lbfgs, bowl, {{1.5, 0.5}}, kTight, kEnough), NumericalFailure);
+}
+
+/// (x - 1)^2 + (y - 1)^2 inside the circle x^2 + y^2 <= 1 / 2, whose nearest point is (1/2, 1/2).
+void circle(std::span<const double> p, std::span<double> values, std::span<double> gradients) {
+  values[0] = (p[0] - 1.0) * (p[0] - 1.0) + (p[1] - 1.0) * (p[1] - 1.0);
+  values[1] = p[0] * p[0] + p[1] * p[1] - 0.5;
+  if (gradients.empty()) return;
+  for (std::size_t j = 0; j < 2; ++j) {
+    gradients[j] = 2.0 * (p[j] - 1.0);
+    gradients[2 + j] = 2.0 * p[j];
+  }
+}
+
+class MinimiseConstrained : public testing::TestWithParam<ConstrainedAlgorithm> {};
+
+TEST_P(MinimiseConstrained, FindsTheMinimumOnTheConstraintAndKeepsIt) {
+  const ConstrainedMinimum minimum = minimize_constrained(GetParam(), circle, 1, kStart, kTight, kEnough);
+  EXPECT_NEAR(minimum.point.at(0), 0.5, kMinimum);
+  EXPECT_NEAR(minimum.point.at(1), 0.5, kMinimum);
+  EXPECT_LE(minimum.violation, 0.0);
+  EXPECT_GT(minimum.violation, -kMinimum);
+  EXPECT_GT(minimum.evaluations, 1);
+}
+
+TEST_P(MinimiseConstrained, ComesNearestWhereNothingKeepsTheConstraint) {
+  const auto impossible = [](std::span<const double> p, std::span<double> values, std::span<double> gradients) {
+    values[0] = p[1];
+    values[1] = 0.25 + (p[0] - 0.75) * (p[0] - 0.75) + 0.1 * p[1];
+    if (gradients.empty()) return;
+    const double rows[] = {0.0, 1.0, 2.0 * (p[0] - 0.75), 0.1};
+    std::copy(std::begin(rows), std::end(rows), gradients.begin());
+  };
+  const ConstrainedMinimum minimum = minimize_constrained(GetParam(), impossible, 1, kStart, kTight, kEnough);
+  EXPECT_GT(minimum.violation, 0.25 - kMinimum);
+  EXPECT_LT(minimum.violation, 0.26);
+}
+
+TEST_P(MinimiseConstrained, PassesOnWhatTheFunctionThrows) {
+  const auto thrower = [](std::span<const double> p, std::span<double> values, std::span<double> gradients) {
+    if (p[0] < 0.8) throw std::out_of_range("too small");
+    circle(p, values, gradients);
+  };
+  EXPECT_THROW(minimize_constrained(GetParam(), thrower, 1, kStart, kTight, kEnough), std::out_of_range);
+}
+
+TEST_P(MinimiseConstrained, PrefersAPointThatCanBeUsed) {
+  const auto partial = [](std::span<const double> p, std::span<double> values, std::span<double> gradients) {
+    circle(p, values, gradients);
+    if (p[0] > 0.8) values[0] = std::numeric_limits<double>::infinity();
+  };
+  const ConstrainedMinimum minimum = minimize_constrained(GetParam(), partial, 1, {{0.1, 0.2}}, kTight, kEnough);
+  EXPECT_NEAR(minimum.point.at(0), 0.5, kMinimum);
+}
+
+INSTANTIATE_TEST_SUITE_P(Algorithms, MinimiseConstrained,
+                         testing::Values(ConstrainedAlgorithm::slsqp, ConstrainedAlgorithm::cobyla),
+                         [](const auto& algorithm) {
+                           return algorithm.param == ConstrainedAlgorithm::slsqp ? "slsqp" : "cobyla";
+                         });
+
+TEST(MinimiseConstrainedCobyla, ComesNearTheBottomOfAKink) {
+  constexpr double kNear = 1e-2;  // solver: COBYLA's simplex shrinks early at a kink
+  const auto kinked = [](std::span<const double> p, std::span<double> values, std::span<double>) {
+    values[0] = std::fabs(p[0] - 0.3) + (p[1] - 0.6) * (p[1] - 0.6);
+  };
+  const ConstrainedMinimum minimum =
+      minimize_constrained(ConstrainedAlgorithm::cobyla, kinked, 0, kStart, kTight, kEnough);
+  EXPECT_LT(minimum.value, kNear);
+  EXPECT_EQ(minimum.violation, 0.0);
 }
 
 }  // namespace
