@@ -22,6 +22,20 @@ constexpr double kAgreement = 1e-6;   // between the fit's E and the engine's of
 constexpr double kLeastError = 1e-3;  // E below which the agreement is absolute
 constexpr double kNoError = 1e-9;     // E of a perfect fit
 
+/// The motion that a residual energy starts with is the same for all values.
+void check_free_with_energy(const HeavePitchModel& model, const std::vector<PitchParameter>& parameters,
+                            const PitchOptions& simulation) {
+  if (std::isnan(simulation.residual_energy_j)) return;
+  using M = HeavePitchModel;
+  for (const PitchParameter& parameter : parameters)
+    if (parameter.member == &M::mass_kg || parameter.member == &M::pitch_inertia_kgm2 ||
+        (parameter.member == &M::force_arm_m && model.formulation == PitchFormulation::derived))
+      throw InvalidInput(
+          fmt::format("IdentifyPitchOptions.free names {}, which sets the motion that PitchOptions.residual_energy_j "
+                      "starts with: keep it as it is, or give the initial rates instead",
+                      parameter.name));
+}
+
 /// What an identification is made from. All but the starts is checked here.
 struct Study {
   HeavePitchModel first;  ///< The given model with the values of start 0.
@@ -40,11 +54,12 @@ struct Study {
     for (const PitchParameter& parameter : parameters) first.*parameter.member = parameter.first;
     validate(first);
     check_pitch_input(first, forcing);
-    target = make_pitch_target(forcing, measured, simulated, how);
+    check_free_with_energy(first, parameters, simulation);
+    target = make_pitch_target(first, forcing, measured, simulated, how);
     if (target.samples.size() <= parameters.size())
       throw InvalidInput(fmt::format("PitchTarget: {} samples cannot determine {} parameters: free fewer or give more",
                                      target.samples.size(), parameters.size()));
-    const auto notes = notes_on_pitch_input(first, forcing, target.start_s, target.times.back());
+    const auto notes = notes_on_pitch_input(first, forcing, simulation, target.start_s, target.times.back());
     warnings.insert(warnings.end(), notes.begin(), notes.end());
   }
 
