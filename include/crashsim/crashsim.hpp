@@ -15,6 +15,7 @@
 #include <crashsim/identify.hpp>
 #include <crashsim/identify_options.hpp>
 #include <crashsim/identify_pitch.hpp>
+#include <crashsim/identify_vertical.hpp>
 #include <crashsim/measured_motion.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/model_io.hpp>

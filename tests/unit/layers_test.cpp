@@ -83,6 +83,7 @@ const std::map<std::string, Layer> kLayers = {
     {"identify", identification},
     {"identify_options", identification},
     {"identify_pitch", identification},
+    {"identify_vertical", identification},
     {"optimize/", identification},
 
     {"batch", pipeline},
