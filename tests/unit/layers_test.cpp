@@ -84,6 +84,7 @@ const std::map<std::string, Layer> kLayers = {
     {"identify_options", identification},
     {"identify_pitch", identification},
     {"identify_vertical", identification},
+    {"measured_vertical", identification},
     {"optimize/", identification},
 
     {"batch", pipeline},
@@ -92,10 +93,12 @@ const std::map<std::string, Layer> kLayers = {
     {"case_outputs", pipeline},
     {"case_pitch", pipeline},
     {"case_sections", pipeline},
+    {"fit_json", pipeline},
     {"model_io", pipeline},
     {"outputs", pipeline},
     {"summary", pipeline},
     {"vehicle_io", pipeline},
+    {"vertical_io", pipeline},
 
     {"crashsim", everything},
 };
