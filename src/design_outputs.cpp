@@ -70,16 +70,6 @@ std::string format_trade_off(const DesignResult& result, const Record& record) {
                     columns);
 }
 
-std::string format_coupled(const CoupledResponse& response, const Record& record) {
-  Comments comments = {{"crashsim", record.version}, {"outcome", std::string(name_of(response.outcome))}};
-  for (const std::string& note : response.notes) comments.emplace_back("note", note);
-  comments.emplace_back("record", to_json(record));
-  std::vector<Column> columns;
-  for (const CoupledColumn& column : kCoupledColumns)
-    columns.push_back({std::string(column.name), response.*column.member});
-  return format_csv(comments, columns);
-}
-
 Json responses_json(const DesignResponses& responses) {
   Json json = Json::object();
   for (const auto& response : kDesignResponses)

@@ -10,8 +10,8 @@
 
 #include <crashsim/option_values.hpp>
 
+#include "optimize/parameter_verdict.hpp"
 #include "optimize/pitch_objective.hpp"
-#include "optimize/pitch_verdict.hpp"
 #include "optimize/starts.hpp"
 #include "pitch_input.hpp"
 
@@ -21,6 +21,20 @@ namespace {
 constexpr double kAgreement = 1e-6;   // between the fit's E and the engine's of record
 constexpr double kLeastError = 1e-3;  // E below which the agreement is absolute
 constexpr double kNoError = 1e-9;     // E of a perfect fit
+
+/// The motion that a residual energy starts with is the same for all values.
+void check_free_with_energy(const HeavePitchModel& model, const std::vector<PitchParameter>& parameters,
+                            const PitchOptions& simulation) {
+  if (std::isnan(simulation.residual_energy_j)) return;
+  using M = HeavePitchModel;
+  for (const PitchParameter& parameter : parameters)
+    if (parameter.member == &M::mass_kg || parameter.member == &M::pitch_inertia_kgm2 ||
+        (parameter.member == &M::force_arm_m && model.formulation == PitchFormulation::derived))
+      throw InvalidInput(
+          fmt::format("IdentifyPitchOptions.free names {}, which sets the motion that PitchOptions.residual_energy_j "
+                      "starts with: keep it as it is, or give the initial rates instead",
+                      parameter.name));
+}
 
 /// What an identification is made from. All but the starts is checked here.
 struct Study {
@@ -40,44 +54,23 @@ struct Study {
     for (const PitchParameter& parameter : parameters) first.*parameter.member = parameter.first;
     validate(first);
     check_pitch_input(first, forcing);
-    target = make_pitch_target(forcing, measured, simulated, how);
+    check_free_with_energy(first, parameters, simulation);
+    target = make_pitch_target(first, forcing, measured, simulated, how);
     if (target.samples.size() <= parameters.size())
       throw InvalidInput(fmt::format("PitchTarget: {} samples cannot determine {} parameters: free fewer or give more",
                                      target.samples.size(), parameters.size()));
-    const auto notes = notes_on_pitch_input(first, forcing, target.start_s, target.times.back());
+    const auto notes = notes_on_pitch_input(first, forcing, simulation, target.start_s, target.times.back());
     warnings.insert(warnings.end(), notes.begin(), notes.end());
   }
 
   [[nodiscard]] PitchObjective objective(Loss loss) const { return {first, forcing, target, parameters, loss}; }
-
-  [[nodiscard]] std::vector<double> values_at(std::span<const double> point) const {
-    std::vector<double> values(point.size());
-    for (std::size_t i = 0; i < point.size(); ++i) values[i] = parameters[i].value_at(point[i]);
-    return values;
-  }
-
-  [[nodiscard]] std::vector<double> initial_point(int index) const {
-    std::vector<double> point(parameters.size());
-    for (std::size_t i = 0; i < point.size(); ++i)
-      point[i] = index == 0 ? parameters[i].place_of(parameters[i].first)
-                            : uniform_random(options.seed, static_cast<std::uint64_t>(index), i);
-    return point;
-  }
 };
 
 std::vector<StartResult> run_all_starts(const Study& study, const PitchObjective& objective, const Progress& progress) {
-  const IdentifyPitchOptions& options = study.options;
-  StartPlan plan{options.starts, options.jobs, options.loss, options.algorithm, {}, {}};
-  plan.make_function = [&] {
-    return [&](std::span<const double> point, double smoothing, std::span<double> gradient) {
-      const std::vector<double> values = study.values_at(point);
-      const double error = objective.evaluate(values, smoothing, gradient);
-      for (std::size_t i = 0; i < values.size(); ++i) gradient[i] *= study.parameters[i].slope_at(values[i]);
-      return error;
-    };
+  const auto error = [&](std::span<const double> values, double smoothing, std::span<double> gradient) {
+    return objective.evaluate(values, smoothing, gradient);
   };
-  plan.initial_point = [&study](int index) { return study.initial_point(index); };
-  return run_starts(plan, progress);
+  return run_starts(plan_of_starts(ranges_of(study.parameters), error, study.options), progress);
 }
 
 /// Takes the starts into the result. @returns the best one's values, none when every start failed.
@@ -97,7 +90,7 @@ std::vector<double> take_starts(const Study& study, const std::vector<StartResul
         results.size(), study.target.times.back());
   }
   if (summary.best < 0) return {};
-  return study.values_at(results[static_cast<std::size_t>(summary.best)].parameters);
+  return values_at(ranges_of(study.parameters), results[static_cast<std::size_t>(summary.best)].parameters);
 }
 
 /// E as the engine of record simulates the model, and whether the fit agrees.
@@ -128,19 +121,16 @@ void record_error(const Study& study, double fitted, PitchIdentification& out) {
 /// Model, error and verdict of the values found.
 void judge(const Study& study, const PitchObjective& objective, std::span<const double> values,
            PitchIdentification& out) {
-  out.model = with_values(study.first, study.parameters, values);
+  out.model = with_values<HeavePitchModel>(study.first, study.parameters, values);
   record_error(study, objective.evaluate(values, 0.0, {}), out);
   const Eigen::MatrixXd jacobian = objective.jacobian(values);
   const auto freedom = static_cast<double>(jacobian.rows() - jacobian.cols());
   const double variance = study.objective(Loss::l2).evaluate(values, 0.0, {}) / freedom;
-  PitchIdentifiability found = judge_pitch(study.parameters, values, jacobian, variance);
+  ParameterVerdict found = judge_parameters(ranges_of(study.parameters), values, jacobian, variance);
   out.verdict = std::move(found.verdict);
   out.parameters = std::move(found.parameters);
   out.correlation = std::move(found.correlation);
-  for (const ParameterReport& parameter : out.parameters)
-    if (parameter.at_bound && !parameter.untouched)
-      out.warnings.push_back(fmt::format("{} = {:.6g} {} is at its bound: the best value may lie beyond it",
-                                         parameter.name, parameter.value, parameter.unit));
+  warn_at_bounds(out.parameters, out.warnings);
 }
 
 }  // namespace

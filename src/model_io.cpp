@@ -11,6 +11,7 @@
 #include <crashsim/files.hpp>
 #include <crashsim/option_values.hpp>
 
+#include "fit_json.hpp"
 #include "json.hpp"
 #include "record_json.hpp"
 
@@ -188,10 +189,8 @@ Json identification_json(const Identification& fit) {
                {"untouched", names_where(fit, [](const OrdinateReport& o) { return o.untouched; })},
                {"evaluations", fit.evaluations},
                {"seed", fit.seed}};
-  json["correlation"] = Json::array();
-  for (const std::vector<double>& row : fit.correlation) json["correlation"].push_back(json_numbers(row));
-  json["start_errors"] = Json::array();
-  for (const StartReport& start : fit.starts) json["start_errors"].push_back(json_number(start.error));
+  json["correlation"] = correlation_json(fit.correlation);
+  json["start_errors"] = start_errors_json(fit.starts);
   return json;
 }
 

@@ -65,9 +65,32 @@ double start_of_motion(const PitchForcing& forcing, const PitchOptions& options)
       "or a time");
 }
 
-std::vector<std::string> notes_on_pitch_input(const HeavePitchModel& model, const PitchForcing& forcing, double start_s,
-                                              double end_s) {
+PitchState initial_state(const HeavePitchModel& model, const PitchOptions& options) {
+  if (std::isnan(options.residual_energy_j))
+    return {options.heave_m, options.pitch_rad, options.heave_velocity_mps, options.pitch_rate_radps};
+  if (options.heave_velocity_mps != 0.0 || options.pitch_rate_radps != 0.0)
+    throw InvalidInput(
+        fmt::format("PitchOptions.residual_energy_j = {:g} J comes with heave_velocity_mps = {:g} m/s and "
+                    "pitch_rate_radps = {:g} rad/s: the energy gives the initial rates: leave out one or the other",
+                    options.residual_energy_j, options.heave_velocity_mps, options.pitch_rate_radps));
+  const bool as_printed = model.formulation == PitchFormulation::as_printed;
+  if (!as_printed) require_set(model, &HeavePitchModel::force_arm_m, "HeavePitchModel", "there is a residual energy");
+  const double arm = as_printed ? 1.0 : model.force_arm_m;
+  const double compliance = 1.0 / model.mass_kg + arm * arm / model.pitch_inertia_kgm2;
+  const double impulse = std::sqrt(2.0 * options.residual_energy_j / compliance);
+  return {options.heave_m, options.pitch_rad, -impulse / model.mass_kg, impulse * arm / model.pitch_inertia_kgm2};
+}
+
+std::vector<std::string> notes_on_pitch_input(const HeavePitchModel& model, const PitchForcing& forcing,
+                                              const PitchOptions& options, double start_s, double end_s) {
   std::vector<std::string> notes;
+  if (!std::isnan(options.residual_energy_j)) {
+    const PitchState state = initial_state(model, options);
+    notes.push_back(
+        fmt::format("residual energy of {:g} J: the motion starts with a heave velocity of {:.4g} m/s and a pitch "
+                    "rate of {:.4g} rad/s, as an impulse of {:.4g} N s at the force's arm gives a free body",
+                    options.residual_energy_j, state[2], state[3], -model.mass_kg * state[2]));
+  }
   note_cut_force(forcing.vertical_force_n, "vertical_force_n", start_s, end_s, notes);
   note_cut_force(forcing.longitudinal_force_n, "longitudinal_force_n", start_s, end_s, notes);
   if (model.formulation == PitchFormulation::derived) return notes;

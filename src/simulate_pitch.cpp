@@ -92,8 +92,7 @@ void set_channels(PitchResponse& r, const HeavePitchModel& model, const PitchOpt
 /// Integrates on the grid, then fills the channels and the peaks.
 void run(PitchResponse& r, const HeavePitchModel& model, const PitchOptions& options, const PitchGrid& grid) {
   const LinearSystem system = linear_system(model);
-  std::vector<PitchState> states{
-      {options.heave_m, options.pitch_rad, options.heave_velocity_mps, options.pitch_rate_radps}};
+  std::vector<PitchState> states{initial_state(model, options)};
   PitchWork work = options.integrator == PitchIntegrator::cvode ? integrate_by_cvode(system, grid, options.rtol, states)
                                                                 : integrate_by_propagator(system, grid, states);
   r.outcome = work.outcome;
@@ -125,7 +124,7 @@ PitchResponse simulate_pitch(const HeavePitchModel& model, const PitchForcing& f
   PitchResponse response;
   response.start_time_s = start_s;
   response.modes = modes(model);
-  response.notes = notes_on_pitch_input(model, forcing, start_s, end_s);
+  response.notes = notes_on_pitch_input(model, forcing, options, start_s, end_s);
   response.time_s = sample_times(std::min(0.0, start_s), end_s, options.dt_s);
   const auto first = std::ranges::lower_bound(response.time_s, start_s - time_rounding(start_s, end_s));
   const std::span samples(first, response.time_s.end());

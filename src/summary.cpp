@@ -43,6 +43,22 @@ Json to_json(const Summary& summary) {
   return json;
 }
 
+/// The numbers found, starts and verdict of an identification of named numbers.
+template <class Fit>
+void append_fit_of_numbers(const Fit& fit, Summary& summary) {
+  for (const ParameterReport& parameter : fit.parameters)
+    summary.push_back({parameter.name, parameter.value, parameter.name});
+  const Summary rest = {{"starts", static_cast<std::int64_t>(fit.starts.size()), "starts"},
+                        {"starts_at_best", std::int64_t{fit.starts_at_best}, "starts within 0.1 % of the best"},
+                        {"identifiable", fit.verdict.identifiable, "every number determined"},
+                        {"rank", std::int64_t{fit.verdict.rank}, "rank of the sensitivities"},
+                        {"condition", fit.verdict.condition, "their condition number"},
+                        {"verdict", fit.verdict.message, "verdict"},
+                        {"evaluations", std::int64_t{fit.evaluations}, "evaluations of E and its gradient"},
+                        {"seconds", fit.seconds, "wall time"}};
+  summary.insert(summary.end(), rest.begin(), rest.end());
+}
+
 }  // namespace
 
 Metrics metrics_of(const Pulse& pulse) {
@@ -104,6 +120,26 @@ Summary summarize(const Identification& fit) {
           {"verdict", fit.verdict.message, "verdict"},
           {"evaluations", std::int64_t{fit.evaluations}, "evaluations of E and its gradient"},
           {"seconds", fit.seconds, "wall time"}};
+}
+
+Summary summarize(const PitchIdentification& fit) {
+  Summary summary = {{"outcome", std::string(name_of(fit.outcome)), "outcome"},
+                     {"error", fit.error.total, "error E of the fit"},
+                     {"error_heave", fit.error.heave, "its part of heave"},
+                     {"error_pitch", fit.error.pitch, "its part of pitch"},
+                     {"error_heave_velocity", fit.error.heave_velocity, "its part of heave velocity"},
+                     {"error_pitch_rate", fit.error.pitch_rate, "its part of pitch rate"}};
+  append_fit_of_numbers(fit, summary);
+  return summary;
+}
+
+Summary summarize(const VerticalIdentification& fit) {
+  Summary summary = {{"outcome", std::string(name_of(fit.outcome)), "outcome"},
+                     {"error", fit.error, "error E of the fit"},
+                     {"samples", std::int64_t{fit.samples}, "samples compared"},
+                     {"limited_samples", std::int64_t{fit.limited_samples}, "of these, bounded by friction"}};
+  append_fit_of_numbers(fit, summary);
+  return summary;
 }
 
 std::string format_summary(const Summary& summary) { return format_json(to_json(summary)); }

@@ -18,7 +18,9 @@
 #include <crashsim/identify.hpp>
 #include <crashsim/identify_options.hpp>
 #include <crashsim/identify_pitch.hpp>
+#include <crashsim/identify_vertical.hpp>
 #include <crashsim/measured_motion.hpp>
+#include <crashsim/measured_vertical.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/named_number.hpp>
@@ -44,3 +46,4 @@
 #include <crashsim/vehicle_io.hpp>
 #include <crashsim/version.hpp>
 #include <crashsim/vertical_force.hpp>
+#include <crashsim/vertical_io.hpp>

@@ -41,6 +41,17 @@ struct OrdinateReport {
   bool at_bound = false;   ///< At a bound, 0 or the upper.
 };
 
+/// One number of a model that is identified as it is.
+struct ParameterReport {
+  std::string name;                ///< Of the model's field.
+  std::string unit;                ///< SI symbol.
+  double value = kUnset;           ///< [unit].
+  double standard_error = kUnset;  ///< Unset when the data say nothing about it.
+  double lower_bound = kUnset, upper_bound = kUnset;
+  bool untouched = false;  ///< No sample depends on it.
+  bool at_bound = false;
+};
+
 /// One start.
 struct StartReport {
   double error = kUnset;  ///< E reached; infinite when it failed.

@@ -66,17 +66,6 @@ struct PitchFitError {
   double heave = kUnset, pitch = kUnset, heave_velocity = kUnset, pitch_rate = kUnset;  ///< Unset when not given.
 };
 
-/// One number identified.
-struct ParameterReport {
-  std::string name;                ///< Of the field of HeavePitchModel.
-  std::string unit;                ///< SI symbol.
-  double value = kUnset;           ///< [unit].
-  double standard_error = kUnset;  ///< Unset when the data say nothing about it.
-  double lower_bound = kUnset, upper_bound = kUnset;
-  bool untouched = false;  ///< No sample depends on it.
-  bool at_bound = false;
-};
-
 /// What an identification of a heave-pitch model gives.
 struct PitchIdentification {
   IdentifyOutcome outcome = IdentifyOutcome::not_run;

@@ -45,12 +45,15 @@ struct PitchOptions {
   double heave_velocity_mps = 0.0;  ///< Initial heave velocity [m/s].
   double pitch_rad = 0.0;           ///< Initial pitch [rad].
   double pitch_rate_radps = 0.0;    ///< Initial pitch rate [rad/s].
+  /// Energy left at the start [J], >= 0; unset: none. The rates are then those that an impulse P of the vertical force,
+  /// downward, gives a free body: z' = -P/m, theta' = P l_Q/J with E = P^2/2 (1/m + l_Q^2/J).
+  double residual_energy_j = kUnset;
   PitchIntegrator integrator = PitchIntegrator::propagator;
   double rtol = 1e-10;  ///< Relative tolerance of CVODE.
 
   bool operator==(const PitchOptions&) const = default;
 };
-inline constexpr std::array<Field<PitchOptions>, 9> kPitchFields = {{
+inline constexpr std::array<Field<PitchOptions>, 10> kPitchFields = {{
     {"start", "start", "s", "start of the motion: maximum crush, impact, or a time", setting<&PitchOptions::start>()},
     {"end_time_s", "end", "s", "time to simulate to; default 0.3 s", &PitchOptions::end_time_s, positive()},
     {"dt_s", "dt", "s", "output interval", &PitchOptions::dt_s, positive()},
@@ -58,6 +61,8 @@ inline constexpr std::array<Field<PitchOptions>, 9> kPitchFields = {{
     {"heave_velocity_mps", "heave-velocity", "m/s", "initial heave velocity", &PitchOptions::heave_velocity_mps},
     {"pitch_rad", "pitch", "rad", "initial pitch", &PitchOptions::pitch_rad},
     {"pitch_rate_radps", "pitch-rate", "rad/s", "initial pitch rate", &PitchOptions::pitch_rate_radps},
+    {"residual_energy_j", "residual-energy", "J", "energy left at the start, as heave and pitch; default none",
+     &PitchOptions::residual_energy_j, at_least(0.0)},
     {"integrator", "integrator", "", "engine", choice<&PitchOptions::integrator>()},
     {"rtol", "rtol", "", "relative tolerance of CVODE", &PitchOptions::rtol, between(1e-13, 1e-2)},
 }};

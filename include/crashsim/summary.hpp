@@ -8,6 +8,8 @@
 
 #include <crashsim/comparison.hpp>
 #include <crashsim/identify.hpp>
+#include <crashsim/identify_pitch.hpp>
+#include <crashsim/identify_vertical.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/simulate.hpp>
@@ -42,6 +44,9 @@ Summary summarize(const PitchResponse& response);
 Summary summarize(const CoupledResponse& response);
 /// Outcome, errors, starts and verdict.
 Summary summarize(const Identification& identification);
+/// Outcome, errors, the numbers identified, starts and verdict.
+Summary summarize(const PitchIdentification& identification);
+Summary summarize(const VerticalIdentification& identification);
 
 /// A summary as a JSON object.
 std::string format_summary(const Summary& summary);

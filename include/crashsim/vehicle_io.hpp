@@ -5,7 +5,9 @@
 #include <vector>
 
 #include <crashsim/heave_pitch_model.hpp>
+#include <crashsim/identify_pitch.hpp>
 #include <crashsim/option_docs.hpp>
+#include <crashsim/record.hpp>
 
 namespace crashsim {
 
@@ -18,5 +20,10 @@ std::vector<FileKey> vehicle_keys();
 /// or
 ///         has an unknown key or a bad value.
 HeavePitchModel read_vehicle(const std::string& path);
+
+/// The vehicle as JSON that read_vehicle() reads; with how it was identified and made, where that is given.
+/// @throws InvalidInput on a bad model.
+std::string format_vehicle(const HeavePitchModel& model, const PitchIdentification* identification = nullptr,
+                           const Record* record = nullptr);
 
 }  // namespace crashsim

@@ -18,8 +18,8 @@ PitchObjective::PitchObjective(const HeavePitchModel& model, const PitchForcing&
 
 template <class Visit>
 void PitchObjective::walk(std::span<const double> values, std::size_t first, std::size_t count, Visit visit) const {
-  const PitchEquation equation(with_values(model_, parameters_, values), parameters_.subspan(first, count),
-                               steps_.longest_s);
+  const PitchEquation equation(with_values<HeavePitchModel>(model_, parameters_, values),
+                               parameters_.subspan(first, count), steps_.longest_s);
   PitchEquation::State state;
   for (std::size_t i = 0; i < 4; ++i) state.value[i] = target_.initial[static_cast<Eigen::Index>(i)];
   std::size_t step = 0;

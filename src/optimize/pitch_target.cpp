@@ -68,11 +68,11 @@ void merge_times(std::vector<double>& times, double rounding_s) {
 
 }  // namespace
 
-PitchFitTarget make_pitch_target(const PitchForcing& forcing, const PitchTarget& target, const PitchOptions& simulation,
-                                 const IdentifyPitchOptions& options) {
+PitchFitTarget make_pitch_target(const HeavePitchModel& model, const PitchForcing& forcing, const PitchTarget& target,
+                                 const PitchOptions& simulation, const IdentifyPitchOptions& options) {
   PitchFitTarget fit;
   fit.start_s = start_of_motion(forcing, simulation);
-  fit.initial << simulation.heave_m, simulation.pitch_rad, simulation.heave_velocity_mps, simulation.pitch_rate_radps;
+  fit.initial = initial_state(model, simulation);
   const Window window = make_window(target, fit.start_s, simulation, options);
   std::array<TimeSeries, kPitchChannels.size()> kept;
   for (std::size_t c = 0; c < kPitchChannels.size(); ++c) {

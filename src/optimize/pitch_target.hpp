@@ -42,8 +42,8 @@ struct PitchFitTarget {
 };
 
 /// @throws InvalidInput when no channel is given, one is bad, has no sample in the window or is zero there.
-PitchFitTarget make_pitch_target(const PitchForcing& forcing, const PitchTarget& target, const PitchOptions& simulation,
-                                 const IdentifyPitchOptions& options);
+PitchFitTarget make_pitch_target(const HeavePitchModel& model, const PitchForcing& forcing, const PitchTarget& target,
+                                 const PitchOptions& simulation, const IdentifyPitchOptions& options);
 
 /// E of a motion known at target.times, by channel.
 PitchFitError pitch_fit_error(const PitchFitTarget& target, const std::vector<PitchState>& motion, Loss loss);

@@ -119,6 +119,32 @@ INSTANTIATE_TEST_SUITE_P(
                             {"pulse", "t.csv", "-o", "."},
                             {".: is a folder: name a file to write"}}));
 
+const std::vector<std::string> kVerticalForce = {
+    "identify-vertical", "data/fe-car/C56.csv", "--channel", "barrier_impulse_FTZ",
+    "--longitudinal",    "barrier_impulse_FNX", "-o",        "out"};
+
+std::vector<std::string> vertical_force_with(const std::vector<std::string>& options) {
+  std::vector<std::string> arguments = kVerticalForce;
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  return arguments;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    NamedNumbers, BadUsage,
+    testing::Values(Refusal{"no_force_for_identify_pitch",
+                            {},
+                            {"identify-pitch", "data/paper/table1.json", "-o", "out"},
+                            {"identify-pitch: --force is required: the trace with the barrier's force"}},
+                    Refusal{"no_motion",
+                            {},
+                            {"identify-pitch", "data/paper/table1.json", "--force", "data/fe-car/C56.csv", "-o", "out"},
+                            {"identify-pitch: --motion is required: the trace with the body's vertical motion"}},
+                    Refusal{"no_crush", {}, vertical_force_with({}), {"data/fe-car/C56.csv: ", "displacement_m"}},
+                    Refusal{"unknown_number",
+                            {},
+                            vertical_force_with({"--crush", "LEFT_REAR_DX", "--free", "angle,frction"}),
+                            {"IdentifyVerticalOptions.free: unknown name 'frction', did you mean 'friction'?"}}));
+
 INSTANTIATE_TEST_SUITE_P(
     Values, BadUsage,
     testing::Values(

@@ -13,7 +13,9 @@
 #include <crashsim/model_io.hpp>
 #include <crashsim/simulate_pitch.hpp>
 #include <crashsim/trace_io.hpp>
+#include <crashsim/vehicle_io.hpp>
 
+#include "support/source_dir.hpp"
 #include "support/workspace.hpp"
 
 namespace crashsim {
@@ -226,6 +228,39 @@ TEST_F(Commands, PitchTakesTheForceOfASimulatedCrush) {
   const json summary = summary_of({"pitch", "data/paper/table1.json", "--force", "response.csv", "--cg-height", "0.6m",
                                    "--force-height", "0.5m", "--formulation", "derived"});
   EXPECT_GT(summary["pitch_max_rad"].get<double>(), 0.0);
+}
+
+TEST_F(Commands, AVehicleIsIdentifiedFromItsOwnMotion) {
+  constexpr double kFound = 0.061;  // regression: N/m, of 61000
+  const std::vector<std::string> force = {
+      "--force", "data/fe-car/C56.csv", "--channel", "barrier_impulse_FTZ", "--force-arm", "1.7m", "--start", "impact"};
+  std::vector<std::string> simulate = {"pitch", "data/paper/table1.json", "--rear-stiffness", "61000", "-o", "own.csv"};
+  simulate.insert(simulate.end(), force.begin(), force.end());
+  ASSERT_EQ(run(simulate).exit_code, kDone);
+  // The deflections are those of the body over its axles.
+  const HeavePitchModel table = read_vehicle(std::string(test::source_dir()) + "/data/paper/table1.json");
+  std::vector<std::string> identify = {"identify-pitch",
+                                       "data/paper/table1.json",
+                                       "--motion",
+                                       "own.csv",
+                                       "--front",
+                                       "front_deflection_m",
+                                       "--rear",
+                                       "rear_deflection_m",
+                                       "--free",
+                                       "rear-stiffness",
+                                       "--starts",
+                                       "4",
+                                       "--front-position=" + std::to_string(table.front_axle_m),
+                                       "--rear-position=" + std::to_string(-table.rear_axle_m)};
+  identify.insert(identify.end(), force.begin(), force.end());
+  const json summary = summary_of(with(identify, {"-o", "vehicle.json"}));
+  EXPECT_EQ(summary["outcome"], "completed");
+  EXPECT_EQ(summary["identifiable"], true);
+  EXPECT_NEAR(summary["rear_stiffness_n_per_m"].get<double>(), 61000.0, kFound);
+  EXPECT_NEAR(read_vehicle(workspace.path("vehicle.json")).rear_stiffness_n_per_m, 61000.0, kFound);
+  const Finished report = run(with(identify, {"-o", "-"}));
+  EXPECT_THAT(report.err, AllOf(HasSubstr("std. error"), HasSubstr("rear_stiffness_n_per_m")));
 }
 
 TEST_F(Commands, SchemaListsKeysWithUnitsRangesAndDefaults) {

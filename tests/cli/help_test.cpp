@@ -59,8 +59,8 @@ TEST_P(Help, ItsExampleWorksWordForWord) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
-                         testing::Values("info", "pulse", "identify", "simulate", "pitch", "compare", "run", "design",
-                                         "schema"));
+                         testing::Values("info", "pulse", "identify", "simulate", "pitch", "identify-pitch",
+                                         "identify-vertical", "compare", "run", "design", "schema"));
 
 class Program : public testing::Test {
  protected:
@@ -76,7 +76,8 @@ TEST_F(Program, TellsTheLibrarysVersion) {
 TEST_F(Program, HelpsOnAllCommands) {
   const Finished finished = workspace.run({"--help"});
   EXPECT_EQ(finished.exit_code, kDone);
-  for (const char* command : {"info", "pulse", "identify", "simulate", "pitch", "compare", "run", "design", "schema"})
+  for (const char* command : {"info", "pulse", "identify", "simulate", "pitch", "identify-pitch", "identify-vertical",
+                              "compare", "run", "design", "schema"})
     EXPECT_THAT(finished.out, HasSubstr(command));
   EXPECT_THAT(examples_in(finished.out), SizeIs(1));
 }

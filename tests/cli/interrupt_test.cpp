@@ -57,6 +57,56 @@ TEST_F(Interrupt, OfACaseKeepsWhatIsFinished) {
   EXPECT_EQ(read_model(workspace.path("out/model.json")).spring.knots.size(), 7u);
 }
 
+TEST_F(Interrupt, OfIdentificationsOfNumbersKeepsWhatIsFinished) {
+  const std::vector<std::string> pitch = {"identify-pitch",
+                                          "data/paper/table1.json",
+                                          "--cg-height",
+                                          "504mm",
+                                          "--force",
+                                          "data/fe-car/C56.csv",
+                                          "--longitudinal",
+                                          "barrier_impulse_FNX",
+                                          "--start",
+                                          "impact",
+                                          "--motion",
+                                          "data/fe-car/C56.csv",
+                                          "--front",
+                                          "LEFT_MID_DZ",
+                                          "--rear",
+                                          "LEFT_REAR_DZ",
+                                          "--front-position=1",
+                                          "--rear-position=0",
+                                          "--free",
+                                          "force-height",
+                                          "--starts",
+                                          kManyStarts,
+                                          "-o",
+                                          "vehicle.json",
+                                          "--json"};
+  const std::vector<std::string> law = {"identify-vertical",
+                                        "data/fe-car/C56.csv",
+                                        "--channel",
+                                        "barrier_impulse_FTZ",
+                                        "--longitudinal",
+                                        "barrier_impulse_FNX",
+                                        "--crush",
+                                        "LEFT_REAR_DX",
+                                        "--starts",
+                                        kManyStarts,
+                                        "-o",
+                                        "law.json",
+                                        "--json"};
+  for (const auto& command : {pitch, law}) {
+    const Finished finished = workspace.run(command, interrupted_after(1s));
+    EXPECT_EQ(finished.exit_code, kInterrupted) << finished.err;
+    EXPECT_LT(finished.after_interrupt, kAtOnce);
+    const json summary = json::parse(finished.out);
+    EXPECT_EQ(summary["outcome"], "interrupted");
+    EXPECT_GT(summary["starts"], 0);
+  }
+  EXPECT_THAT(workspace.names(), testing::ElementsAre("law.json", "trace.csv", "vehicle.json"));
+}
+
 TEST_F(Interrupt, BeforeAnythingIsFinishedLeavesNothing) {
   const Finished finished =
       workspace.run({"identify", "trace.csv", "--starts", kManyStarts, "-o", "model.json"}, interrupted_after(0ms));

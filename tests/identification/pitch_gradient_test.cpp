@@ -168,7 +168,7 @@ TEST_P(PitchGradient, OfRandomModelsIsThatOfComplexSteps) {
     options.free = kNames;
     std::vector<std::string> warnings;
     const auto parameters = pitch_parameters(model, options, warnings);
-    const PitchFitTarget fit = make_pitch_target(forcing, target, test::to(0.4), options);
+    const PitchFitTarget fit = make_pitch_target(model, forcing, target, test::to(0.4), options);
     const PitchObjective objective(model, forcing, fit, parameters, how.loss);
     std::vector<double> values, gradient(kNumbers.size());
     for (const auto member : kNumbers) values.push_back(model.*member);
@@ -241,7 +241,7 @@ TEST(PitchJacobian, IsTheHessianOfTheSquaredLossWithoutResiduals) {
   std::vector<std::string> warnings;
   const auto parameters = pitch_parameters(model, options, warnings);
   const PitchTarget target = test::target_of(simulate_pitch(model, forcing, test::to(0.5)));
-  const PitchFitTarget fit = make_pitch_target(forcing, target, test::to(0.5), options);
+  const PitchFitTarget fit = make_pitch_target(model, forcing, target, test::to(0.5), options);
   const PitchObjective objective(model, forcing, fit, parameters, Loss::l2);
   std::vector<double> values, before(kNumbers.size()), after(kNumbers.size());
   for (const auto member : kNumbers) values.push_back(model.*member);

@@ -112,6 +112,13 @@ const BadInput kBadInputs[] = {
      "HeavePitchModel.force_arm_m is not set but there is a vertical force: give the "},
     {"no_time_of_maximum_crush", [](Input& in) { in.simulation.start.rule = PitchStart::t_m; },
      "PitchOptions.start = t_m: PitchForcing.t_m_s, the time of maximum crush, is not set"},
+    {"a_number_that_the_initial_motion_depends_on",
+     [](Input& in) {
+       in.options.free = {"rear_damping", "pitch_inertia"};
+       in.simulation.residual_energy_j = 100.0;
+     },
+     "IdentifyPitchOptions.free names pitch_inertia_kgm2, which sets the motion that PitchOptions.residual_energy_j "
+     "starts with: keep it as it is, or give the initial rates instead"},
     {"force_not_increasing", [](Input& in) { in.forcing.vertical_force_n.time_s[2] = 0.0; },
      "PitchForcing.vertical_force_n"},
 };

@@ -112,6 +112,12 @@ const Twin kTwins[] = {
        simulation.heave_velocity_mps = 0.3;
        simulation.pitch_rate_radps = -0.2;
      }},
+    {"residual_energy_at_maximum_crush", kSuspension,
+     [](M&, M&, PitchForcing& forcing, PitchOptions& simulation, IdentifyPitchOptions&) {
+       forcing.t_m_s = 0.05;
+       simulation.start.rule = PitchStart::t_m;
+       simulation.residual_energy_j = 400.0;
+     }},
     {"error_by_cvode", kSuspension,
      [](M&, M&, PitchForcing&, PitchOptions& simulation, IdentifyPitchOptions&) {
        simulation.integrator = PitchIntegrator::cvode;

@@ -85,6 +85,8 @@ const std::map<std::string, Layer> kLayers = {
     {"identify", identification},
     {"identify_options", identification},
     {"identify_pitch", identification},
+    {"identify_vertical", identification},
+    {"measured_vertical", identification},
     {"optimize/", identification},
 
     {"batch", pipeline},
@@ -95,10 +97,12 @@ const std::map<std::string, Layer> kLayers = {
     {"case_sections", pipeline},
     {"design_case", pipeline},
     {"design_outputs", pipeline},
+    {"fit_json", pipeline},
     {"model_io", pipeline},
     {"outputs", pipeline},
     {"summary", pipeline},
     {"vehicle_io", pipeline},
+    {"vertical_io", pipeline},
 
     {"crashsim", everything},
 };

@@ -35,6 +35,14 @@ PitchOptions from(PitchStart rule, std::vector<double> numbers = {}) {
   return options;
 }
 
+HeavePitchModel without_suspension() {
+  HeavePitchModel body = test::oracle_vehicle();
+  for (const auto member : {&HeavePitchModel::front_stiffness_n_per_m, &HeavePitchModel::rear_stiffness_n_per_m,
+                            &HeavePitchModel::front_damping_ns_per_m, &HeavePitchModel::rear_damping_ns_per_m})
+    body.*member = 0.0;
+  return body;
+}
+
 TEST(SimulatePitch, IsPessimisticUntilItHasRun) {
   const PitchResponse r;
   EXPECT_FALSE(r.usable());
@@ -96,10 +104,7 @@ TEST(SimulatePitch, StartingAtMaximumCrushIsStartingAtThatTime) {
 }
 
 TEST(SimulatePitch, ForcesAreZeroOutsideTheirSamples) {
-  HeavePitchModel body = test::oracle_vehicle();
-  for (const auto member : {&HeavePitchModel::front_stiffness_n_per_m, &HeavePitchModel::rear_stiffness_n_per_m,
-                            &HeavePitchModel::front_damping_ns_per_m, &HeavePitchModel::rear_damping_ns_per_m})
-    body.*member = 0.0;
+  const HeavePitchModel body = without_suspension();
   PitchForcing forcing;
   forcing.vertical_force_n = {{0.02, 0.06}, {2582.0, 2582.0}};  // 1 m/s^2 for 40 ms
   const PitchResponse r = simulate_pitch(body, forcing, from(PitchStart::impact));
@@ -110,6 +115,48 @@ TEST(SimulatePitch, ForcesAreZeroOutsideTheirSamples) {
   EXPECT_NEAR(r.heave_m[10], -0.5 * 0.04 * 0.04 - 0.04 * 0.04, kRounding);
   EXPECT_THAT(r.notes, ElementsAre(HasSubstr("vertical_force_n begins at 0.02 s with 2582 N, 100 % of its largest"),
                                    HasSubstr("vertical_force_n ends at 0.06 s")));
+}
+
+/// Constant rates that hold the energy and turn about the point that an impulse at the arm leaves at rest.
+TEST(SimulatePitch, AFreeBodyKeepsTheResidualEnergyAsConstantRates) {
+  HeavePitchModel body = without_suspension();
+  body.force_arm_m = 1.7;
+  PitchOptions options = from(PitchStart::given, {0.02});
+  options.residual_energy_j = 800.0;
+  options.heave_m = 0.03;
+  const PitchResponse r = simulate_pitch(body, {}, options);
+  ASSERT_TRUE(r.usable()) << r.message;
+  EXPECT_EQ(r.heave_velocity_mps[1], 0.0);
+  for (std::size_t i = 2; i < r.time_s.size(); ++i) {
+    const double heave = r.heave_velocity_mps[i], pitch = r.pitch_rate_radps[i];
+    EXPECT_LT(heave, 0.0);
+    EXPECT_NEAR(0.5 * body.mass_kg * heave * heave + 0.5 * body.pitch_inertia_kgm2 * pitch * pitch, 800.0,
+                kRounding * 800.0);
+    const double at_rest_m = body.pitch_inertia_kgm2 / (body.mass_kg * body.force_arm_m);  // behind the centre
+    EXPECT_NEAR(heave + at_rest_m * pitch, 0.0, kRounding);
+    EXPECT_NEAR(r.heave_m[i], 0.03 + heave * (r.time_s[i] - 0.02), kRounding);
+    EXPECT_NEAR(r.pitch_rad[i], pitch * (r.time_s[i] - 0.02), kRounding);
+  }
+  EXPECT_THAT(r.notes, ElementsAre(AllOf(HasSubstr("residual energy of 800 J: the motion starts with a heave velocity"),
+                                         HasSubstr("at the force's arm gives a free body"))));
+}
+
+TEST(SimulatePitch, NoResidualEnergyIsStartingAtRest) {
+  PitchOptions options = from(PitchStart::t_m);
+  const PitchResponse at_rest = simulate_pitch(test::oracle_vehicle(), half_sine(), options);
+  options.residual_energy_j = 0.0;
+  EXPECT_EQ(simulate_pitch(test::oracle_vehicle(), half_sine(), options).pitch_rad, at_rest.pitch_rad);
+}
+
+TEST(SimulatePitch, ThePrintedFormTakesTheResidualEnergyAtItsOwnArm) {
+  HeavePitchModel body = without_suspension();
+  PitchOptions options = from(PitchStart::impact);
+  options.residual_energy_j = 500.0;
+  body.force_arm_m = 1.0;
+  const PitchResponse derived = simulate_pitch(body, {}, options);
+  body.force_arm_m = kUnset;
+  body.formulation = PitchFormulation::as_printed;
+  EXPECT_EQ(simulate_pitch(body, {}, options).pitch_rate_radps.front(), derived.pitch_rate_radps.front());
 }
 
 TEST(SimulatePitch, NotesWhatThePrintedFormLeavesOut) {
@@ -142,6 +189,10 @@ TEST(SimulatePitch, AMotionThatGrowsBeyondAllBoundsIsNotUsable) {
   EXPECT_THAT(r.brief_report(), HasSubstr("failed: the motion grows beyond all bounds"));
 }
 
+using M = HeavePitchModel;
+using F = PitchForcing;
+using O = PitchOptions;
+
 /// Runs with something changed.
 template <class Change>
 auto with(const Change& change) {
@@ -152,10 +203,35 @@ auto with(const Change& change) {
   return [=] { (void)simulate_pitch(model, forcing, options); };
 }
 
+TEST(SimulatePitch, RefusesAResidualEnergyThatSaysNothingClear) {
+  const auto energy = [](M& m, O& o) {
+    o.residual_energy_j = 100.0;
+    m.force_arm_m = 1.2;
+  };
+  EXPECT_NO_THROW(with([&](M& m, F&, O& o) { energy(m, o); })());
+  EXPECT_THAT(with([&](M& m, F&, O& o) {
+                energy(m, o);
+                o.residual_energy_j = -1.0;
+              }),
+              ThrowsMessage<InvalidInput>(HasSubstr("PitchOptions.residual_energy_j = -1 J: must be >= 0")));
+  EXPECT_THAT(with([&](M& m, F&, O& o) {
+                energy(m, o);
+                o.pitch_rate_radps = 0.1;
+              }),
+              ThrowsMessage<InvalidInput>(
+                  HasSubstr("PitchOptions.residual_energy_j = 100 J comes with heave_velocity_mps = 0 m/s and "
+                            "pitch_rate_radps = 0.1 rad/s: the energy gives the initial rates: leave out one")));
+  EXPECT_THAT(with([&](M& m, F& f, O& o) {
+                energy(m, o);
+                f = {};
+                m.force_arm_m = kUnset;
+                o.start.rule = PitchStart::impact;
+              }),
+              ThrowsMessage<InvalidInput>(
+                  HasSubstr("HeavePitchModel.force_arm_m is not set but there is a residual energy: give the ")));
+}
+
 TEST(SimulatePitch, RefusesAModelThatLacksWhatTheForceNeeds) {
-  using M = HeavePitchModel;
-  using F = PitchForcing;
-  using O = PitchOptions;
   EXPECT_THAT(with([](M& m, F&, O&) { m.mass_kg = -3.0; }),
               ThrowsMessage<InvalidInput>(HasSubstr("HeavePitchModel.mass_kg = -3 kg: must be > 0")));
   EXPECT_THAT(with([](M& m, F&, O&) { m.force_arm_m = kUnset; }),
@@ -183,9 +259,6 @@ TEST(SimulatePitch, RefusesAModelThatLacksWhatTheForceNeeds) {
 }
 
 TEST(SimulatePitch, RefusesBadSeriesByName) {
-  using M = HeavePitchModel;
-  using F = PitchForcing;
-  using O = PitchOptions;
   EXPECT_THAT(with([](M&, F& f, O&) {
                 f.vertical_force_n = {{0.0, 0.1, 0.1}, {1, 2, 3}};
               }),
@@ -207,9 +280,6 @@ TEST(SimulatePitch, RefusesBadSeriesByName) {
 }
 
 TEST(SimulatePitch, RefusesBadOptionsByName) {
-  using M = HeavePitchModel;
-  using F = PitchForcing;
-  using O = PitchOptions;
   EXPECT_THAT(with([](M&, F& f, O& o) {
                 o.start.rule = PitchStart::t_m;
                 f.t_m_s = kUnset;

@@ -4,8 +4,10 @@
 #include <string>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <crashsim/error.hpp>
+#include <crashsim/option_values.hpp>
 
 #include "support/source_dir.hpp"
 #include "support/temp_dir.hpp"
@@ -53,6 +55,35 @@ TEST(VehicleFile, HoldsThePublishedTable) {
   EXPECT_TRUE(table.per_wheel);
 }
 
+TEST(VehicleFile, ReadsBackWhatIsWritten) {
+  const test::TempDir dir;
+  HeavePitchModel vehicle = read_vehicle(dir.file("v.json", kJson));
+  vehicle.front_damping_ns_per_m = 1.0 / 3.0;
+  vehicle.formulation = PitchFormulation::as_printed;
+  PitchIdentification fit;
+  fit.outcome = IdentifyOutcome::completed;
+  fit.error.total = 0.25;
+  fit.parameters = {{"front_damping_ns_per_m", "N s/m", 1.0 / 3.0, kUnset, 0.1, 9.0, true, false}};
+  const Record record = make_record("identify-pitch", {"v.json"}, {}, {});
+  const std::string text = format_vehicle(vehicle, &fit, &record);
+  const HeavePitchModel again = read_vehicle(dir.file("again.json", text));
+  for (const Field<HeavePitchModel>& field : fields<HeavePitchModel>)
+    EXPECT_EQ(get_option(again, field), get_option(vehicle, field)) << field.name;
+  EXPECT_EQ(text.find("force_arm_m"), std::string::npos);  // unset
+  const auto written = nlohmann::json::parse(text);
+  EXPECT_EQ(written["identification"]["error"], 0.25);
+  EXPECT_TRUE(written["identification"]["error_pitch"].is_null());
+  EXPECT_EQ(written["identification"]["parameters"][0]["value"], 1.0 / 3.0);
+  EXPECT_TRUE(written["identification"]["parameters"][0]["standard_error"].is_null());
+  EXPECT_EQ(written["identification"]["parameters"][0]["untouched"], true);
+  EXPECT_EQ(written["record"]["command"], "identify-pitch");
+}
+
+TEST(VehicleFile, ABadVehicleIsNotWritten) {
+  EXPECT_THAT([] { static_cast<void>(format_vehicle({})); },
+              ThrowsMessage<InvalidInput>(HasSubstr("HeavePitchModel.mass_kg is not set")));
+}
+
 TEST(VehicleFile, IsRefusedWithKeyAndRule) {
   const test::TempDir dir;
   const auto refused = [&](const std::string& old, const std::string& now, const std::string& message) {
@@ -64,7 +95,7 @@ TEST(VehicleFile, IsRefusedWithKeyAndRule) {
   refused("\"1.5t\"", "-1", "mass_kg = -1 kg: must be > 0");
   refused("\"1.5t\"", "\"1.5m\"", "'m' measures length, not mass");
   refused("\"mass_kg\"", "\"masss_kg\"", "unknown name 'masss_kg', did you mean 'mass'");
-  refused("\"title\"", "\"format\"", "v.json: is a a car, not a vehicle");
+  refused("\"title\"", "\"format\"", "v.json: is a \"a car\", not a vehicle");
   refused("null}", "null", "v.json:3: is not JSON");
   refused("true", "1", "per_wheel: must be true or false, not a whole number");
   EXPECT_THAT([&] { static_cast<void>(read_vehicle(dir.path("none.json"))); },

@@ -1,4 +1,4 @@
-#include "optimize/pitch_verdict.hpp"
+#include "optimize/parameter_verdict.hpp"
 
 #include <cmath>
 #include <string>
@@ -18,9 +18,9 @@ constexpr double kNarrow = 0.1;            // standard error, relative to the wa
 constexpr double kAtBound = 1e-6;          // of that way
 constexpr double kTakesPart = 0.2;         // of the largest share in the weakest combination
 
-/// The combination of parameters that the motion hardly depends on, as changes relative to the values: "front_axle_m
+/// The combination of parameters that the fit hardly depends on, as changes relative to the values: "front_axle_m
 /// by +1 %, rear_axle_m by -0.62 %".
-std::string weakest_combination(std::span<const PitchParameter> parameters, std::span<const double> values,
+std::string weakest_combination(std::span<const SoughtRange> parameters, std::span<const double> values,
                                 const ColumnAnalysis& analysis) {
   const double largest_share = analysis.weakest.cwiseAbs().maxCoeff();
   std::vector<std::pair<std::size_t, double>> changes;
@@ -35,13 +35,13 @@ std::string weakest_combination(std::span<const PitchParameter> parameters, std:
   }
   std::vector<std::string> texts;
   for (const auto& [i, change] : changes)
-    texts.push_back(fmt::format("{} by {:+.2g} %{}", parameters[i].field->name, change / largest,
+    texts.push_back(fmt::format("{} by {:+.2g} %{}", parameters[i].name, change / largest,
                                 values[i] != 0.0 ? "" : " of its range"));
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-std::string explain(std::span<const PitchParameter> parameters, std::span<const double> values,
-                    const PitchIdentifiability& judged, const ColumnAnalysis& analysis,
+std::string explain(std::span<const SoughtRange> parameters, std::span<const double> values,
+                    const ParameterVerdict& judged, const ColumnAnalysis& analysis,
                     const std::vector<std::string>& vague) {
   const Verdict& verdict = judged.verdict;
   const std::string numbers =
@@ -51,8 +51,8 @@ std::string explain(std::span<const PitchParameter> parameters, std::span<const 
     texts.push_back(fmt::format("every parameter is determined ({})", numbers));
   else if (!analysis.has_full_rank() || verdict.condition > kWellConditioned)
     texts.push_back(
-        fmt::format("the parameters {} be told apart ({}): changing {} together leaves the motion nearly as "
-                    "it is; fix one of them, or give more channels or a longer record",
+        fmt::format("the parameters {} be told apart ({}): changing {} together leaves the fit nearly as it "
+                    "is; fix one of them, or give more channels or a longer record",
                     analysis.has_full_rank() ? "can hardly" : "cannot", numbers,
                     weakest_combination(parameters, values, analysis)));
   else
@@ -67,10 +67,10 @@ std::string explain(std::span<const PitchParameter> parameters, std::span<const 
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-ParameterReport describe(const PitchParameter& parameter, double value, bool touched, double standard_error) {
+ParameterReport describe(const SoughtRange& parameter, double value, bool touched, double standard_error) {
   ParameterReport report;
-  report.name = parameter.field->name;
-  report.unit = parameter.field->unit;
+  report.name = parameter.name;
+  report.unit = parameter.unit;
   report.value = value;
   report.standard_error = standard_error;
   report.lower_bound = parameter.lower;
@@ -83,14 +83,14 @@ ParameterReport describe(const PitchParameter& parameter, double value, bool tou
 
 }  // namespace
 
-PitchIdentifiability judge_pitch(std::span<const PitchParameter> parameters, std::span<const double> values,
-                                 const Eigen::MatrixXd& jacobian, double residual_variance) {
+ParameterVerdict judge_parameters(std::span<const SoughtRange> parameters, std::span<const double> values,
+                                  const Eigen::MatrixXd& jacobian, double residual_variance) {
   Eigen::VectorXd sizes(static_cast<Index>(parameters.size()));
   for (std::size_t i = 0; i < parameters.size(); ++i) sizes[static_cast<Index>(i)] = parameters[i].slope_at(values[i]);
   const std::vector<bool> touched = touched_columns(jacobian, sizes);
   const ColumnAnalysis analysis = analyse_columns(jacobian, sizes);
   Uncertainty uncertainty = uncertainty_of(analysis, residual_variance);
-  PitchIdentifiability out;
+  ParameterVerdict out;
   std::vector<std::string> vague;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const double error = uncertainty.standard_errors[i];
@@ -108,6 +108,13 @@ PitchIdentifiability judge_pitch(std::span<const PitchParameter> parameters, std
                              analysis.condition <= kWellConditioned && vague.empty();
   out.verdict.message = explain(parameters, values, out, analysis, vague);
   return out;
+}
+
+void warn_at_bounds(std::span<const ParameterReport> parameters, std::vector<std::string>& warnings) {
+  for (const ParameterReport& parameter : parameters)
+    if (parameter.at_bound && !parameter.untouched)
+      warnings.push_back(fmt::format("{} = {:.6g} {} is at its bound: the best value may lie beyond it", parameter.name,
+                                     parameter.value, parameter.unit));
 }
 
 }  // namespace crashsim
