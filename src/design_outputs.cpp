@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <crashsim/coupled_columns.hpp>
 #include <crashsim/design_case.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/outputs.hpp>

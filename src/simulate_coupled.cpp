@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -114,12 +115,14 @@ void add_notes(const TimeSeries& vertical_force_n, CoupledResponse& out) {
   const double crush = std::ranges::max(out.crush_m);
   if (crush > out.max_crush_m * (1.0 + kNegligible))
     out.notes.push_back(fmt::format("crush is up to {:.4g} m after t_m: pitching drives the front in again", crush));
-  if (crush > out.static_crush_m)
+  const auto apart = std::ranges::upper_bound(out.time_s, out.separation_s) - out.time_s.begin();  // NaN: the end
+  const auto after = std::span(out.crush_m).subspan(static_cast<std::size_t>(apart));
+  if (!after.empty() && std::ranges::max(after) > out.static_crush_m)
     out.notes.push_back(
-        fmt::format("the front is {:.4g} m in after contact was lost at {:.4g} m of crush: pitching drives it into the "
-                    "barrier again, "
-                    "which the model leaves out; its motion after {:.4g} s is not to be relied on",
-                    crush, out.static_crush_m, out.separation_s));
+        fmt::format("contact was lost at {:.4g} m of crush, but pitching drives the front in to {:.4g} m: the barrier "
+                    "does not push "
+                    "again in this model, so do not rely on the motion after {:.4g} s",
+                    out.static_crush_m, std::ranges::max(after), out.separation_s));
   const auto [least, most] = std::ranges::minmax(out.pitch_rad);
   if (std::max(-least, most) > kSmallAngle)
     out.notes.push_back(

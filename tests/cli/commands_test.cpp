@@ -252,7 +252,8 @@ TEST_F(Commands, AVehicleIsIdentifiedFromItsOwnMotion) {
                                        "--starts",
                                        "4",
                                        "--front-position=" + std::to_string(table.front_axle_m),
-                                       "--rear-position=" + std::to_string(-table.rear_axle_m)};
+                                       "--rear-position=" + std::to_string(-table.rear_axle_m),
+                                       "--cg-position=0"};
   identify.insert(identify.end(), force.begin(), force.end());
   const json summary = summary_of(with(identify, {"-o", "vehicle.json"}));
   EXPECT_EQ(summary["outcome"], "completed");

@@ -76,6 +76,7 @@ TEST_F(Interrupt, OfIdentificationsOfNumbersKeepsWhatIsFinished) {
                                           "LEFT_REAR_DZ",
                                           "--front-position=1",
                                           "--rear-position=0",
+                                          "--cg-position=0.65",
                                           "--free",
                                           "force-height",
                                           "--starts",

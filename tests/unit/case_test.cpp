@@ -86,6 +86,15 @@ const ConfigEntry& entry_of(const std::vector<ConfigEntry>& entries, const FileK
   throw std::runtime_error("no entry " + key.section + "." + key.key);
 }
 
+/// What a case that speaks of pitch must say of its vehicle, but for one key.
+std::string vehicle_without(const std::string& key) {
+  std::string text;
+  for (const char* line : {"pitch_inertia = 2000", "front_axle = 1.2", "rear_axle = 1.4", "front_stiffness = 6e4",
+                           "rear_stiffness = 4e4", "front_damping = 3e3", "rear_damping = 6e3"})
+    if (!std::string_view(line).starts_with(key + " =")) text += std::string(line) + "\n";
+  return text;
+}
+
 TEST(Case, EveryKeyCanBeSetAndIsRecorded) {
   const test::TempDir dir;
   const std::vector<ConfigEntry> defaults = entries_of(Case());
@@ -97,6 +106,9 @@ TEST(Case, EveryKeyCanBeSetAndIsRecorded) {
     std::string toml = key.section.empty() ? line : fmt::format("[{}]\n{}", key.section, line);
     if (key.section == "pulse" && key.key != "file") toml += "file = \"t.csv\"\n";
     if (key.key == "unloading_stiffness" || key.key == "restitution") toml += "unloading = \"plastic\"\n";
+    if (key.section == "vehicle") toml += vehicle_without(key.key);
+    if (key.key == "motion") toml += "front_position = 1\nrear_position = 0\ncg_position = 0\n";
+    if (key.section == "pitch" || key.key == "motion") toml += "[vehicle]\n" + vehicle_without("");
     if (key.section != "pulse") toml += kPulseOnly;
     const Case study = read_case(dir.file("case.toml", toml));
     EXPECT_EQ(entry_of(entries_of(study), key).value, value) << toml;
@@ -339,6 +351,7 @@ TEST(RunCase, TheCoupledMotionStandsBesideTheTwoPhases) {
   CoupledModel model{result.model, study.vehicle, study.vertical, study.ground};
   CoupledOptions options;
   options.dt_s = study.motion.dt_s;
+  options.rtol = study.motion.rtol;
   EXPECT_EQ(result.coupled->pitch_rad, simulate_coupled(model, options).pitch_rad);
   EXPECT_THAT(result.notes, testing::Contains(testing::HasSubstr("coupled it has pitched")));
   EXPECT_THAT(case_file_names(study), testing::IsSupersetOf({"pitch.csv", "coupled.csv"}));

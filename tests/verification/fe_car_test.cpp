@@ -86,6 +86,7 @@ TEST(FeCarCase, ReboundsAsTheCarWhenUnloadedPlastically) {
   Case study = read_case(folder + "case.toml");
   study.identify.starts = 1;
   study.what.speeds_mps.clear();
+  study.what.unloading = UnloadingKind::elastic;
   const CaseResult elastic = run_case(study);
   study.what.unloading = UnloadingKind::plastic;
   const CaseResult plastic = run_case(study);
