@@ -75,6 +75,30 @@ TEST(Paper, ItsRatingsAreThoseOfItsCommand) {
   }
 }
 
+TEST(Paper, TheReadmesRatingsOfSuspensionsAreThoseOfTheirCases) {
+  const std::string page = read_file(std::string(test::source_dir()) + "/README.md");
+  const auto rows = table_below(page, "| case | suspension |");
+  constexpr std::size_t kRows = 3;
+  ASSERT_EQ(rows.size(), kRows);
+  const test::Workspace workspace;
+  for (const std::vector<std::string>& row : rows) {
+    SCOPED_TRACE(row[0]);
+    const std::string file = row[0].substr(1, row[0].size() - 2);
+    ASSERT_EQ(workspace.run({"run", file, "-o", "out", "--force"}).exit_code, test::kDone);
+    const json comparisons = json::parse(workspace.text_of("out/comparison.json"));
+    int compared = 0;
+    for (const json& channel : comparisons["heave_and_pitch"]["channels"]) {
+      const std::size_t column = channel["name"] == "pitch_rad" ? 2 : (channel["name"] == "heave_velocity_mps" ? 3 : 0);
+      if (column == 0) continue;
+      ++compared;
+      const double rating = *parse_number(row[column].substr(0, row[column].find(' ')));
+      EXPECT_NEAR(channel["iso18571"]["overall"].get<double>(), rating, kElsewhere * rating);
+      EXPECT_EQ(channel["iso18571"]["grade"], row[column].substr(row[column].find(' ') + 1));
+    }
+    EXPECT_EQ(compared, 2);
+  }
+}
+
 TEST(Paper, ItsErrataDoWhatItSays) {
   const test::Workspace workspace;
   std::string force = "time_s,vertical_force_n\n";
