@@ -32,9 +32,9 @@ struct BodyMotion {
 
 /// The body as a rigid one, for small angles: pitch = (z_rear - z_front) / distance, heave on the line through both.
 /// @param cg_position_m of the centre of gravity, from the same reference as the stations.
-/// @throws InvalidInput when a station has no trace, its place is not set or the front one is not ahead of the rear
-/// one,
-///         or the traces are not of one dimension and one clock.
+/// @throws InvalidInput when a station has no trace, its place is not set or the front one is not
+///         ahead of the rear one, or the traces are not
+///         of one dimension and one clock.
 BodyMotion body_motion(const BodyStation& front, const BodyStation& rear, double cg_position_m, VerticalSign sign);
 
 }  // namespace crashsim

@@ -61,9 +61,9 @@ struct CoupledModel {
 /// @throws InvalidInput
 CoupledModel with_one_mass(const CoupledModel& model);
 
-/// @throws InvalidInput naming the field, its value and the rule, on a bad part, masses that differ, a height that is
-/// not
-///         set, half a bump stop, or printed equations.
+/// @throws InvalidInput naming the field, its value and the rule, on a bad part, masses that
+///         differ, a height that is not set, half a bump stop,
+///         or printed equations.
 void validate(const CoupledModel& model);
 
 }  // namespace crashsim
