@@ -35,7 +35,7 @@ Summary summarize(const CaseResult& result) {
   if (result.response.outcome == CrushOutcome::not_run)
     return {{"outcome", std::string(name_of(result.identification->outcome)), "outcome"}};
   Summary summary = summarize(result.response, result.model.mass_kg);
-  std::string& outcome = std::get<std::string>(summary.front().value);
+  auto& outcome = std::get<std::string>(summary.front().value);
   const auto fail = [&](const auto& part) {  // the first that failed is the outcome of all
     if (outcome == name_of(CrushOutcome::completed) && !part.usable()) outcome = name_of(part.outcome);
   };
