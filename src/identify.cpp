@@ -208,29 +208,21 @@ void judge(const Study& study, std::span<double> parameters, Identification& out
 }
 
 /// Takes the starts into the result. @returns the best one's parameters, none when every start failed.
-std::vector<double> take_starts(const std::vector<StartResult>& results, Identification& out) {
-  StartSummary summary = summarize_starts(results, 0.0);
-  out.starts = std::move(summary.reports);
-  out.starts_at_best = summary.at_best;
-  out.evaluations = summary.evaluations;
-  if (out.starts.size() < results.size()) {
-    out.outcome = IdentifyOutcome::interrupted;
-    out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
-  } else if (summary.best < 0) {
-    out.outcome = IdentifyOutcome::every_start_failed;
-    out.message = fmt::format(
-        "all {} starts failed: their simulations did not reach the end of the pulse within {} steps: check the pulse's "
-        "times and units, or lower the bounds",
-        results.size(), kStepLimit);
-  }
-  return summary.best < 0 ? std::vector<double>() : results[static_cast<std::size_t>(summary.best)].parameters;
+std::vector<double> best_of(const std::vector<StartResult>& results, Identification& out) {
+  const std::string why = fmt::format(
+      "their simulations did not reach the end of the pulse within {} steps: check the pulse's times and units, or "
+      "lower "
+      "the bounds",
+      kStepLimit);
+  const int best = take_starts(results, 0.0, why, out);
+  return best < 0 ? std::vector<double>() : results[static_cast<std::size_t>(best)].parameters;
 }
 
 std::vector<double> find_parameters(const Study& study, const Progress& progress, Identification& out) {
   const auto& [options, targets, structure, upper] = study;
   const Eigen::VectorXd linear = solve_equation_error(structure, targets, upper, options.smooth);
   if (options.method == IdentifyMethod::multistart)
-    return take_starts(run_starts({structure, targets, options, upper, linear}, progress), out);
+    return best_of(run_starts({structure, targets, options, upper, linear}, progress), out);
   std::vector<double> parameters(linear.begin(), linear.end());
   FitObjective objective(structure, targets, options.loss, options.smooth);
   if (std::isfinite(objective.evaluate(parameters, 0.0, {}))) return parameters;

@@ -74,23 +74,13 @@ std::vector<StartResult> run_all_starts(const Study& study, const PitchObjective
 }
 
 /// Takes the starts into the result. @returns the best one's values, none when every start failed.
-std::vector<double> take_starts(const Study& study, const std::vector<StartResult>& results, PitchIdentification& out) {
-  StartSummary summary = summarize_starts(results, kNoError);
-  out.starts = std::move(summary.reports);
-  out.starts_at_best = summary.at_best;
-  out.evaluations = summary.evaluations;
-  if (out.starts.size() < results.size()) {
-    out.outcome = IdentifyOutcome::interrupted;
-    out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
-  } else if (summary.best < 0) {
-    out.outcome = IdentifyOutcome::every_start_failed;
-    out.message = fmt::format(
-        "all {} starts failed: the motion grows beyond all bounds before the last sample, at {:g} s: check units, "
-        "bounds and formulation",
-        results.size(), study.target.times.back());
-  }
-  if (summary.best < 0) return {};
-  return values_at(ranges_of(study.parameters), results[static_cast<std::size_t>(summary.best)].parameters);
+std::vector<double> best_of(const Study& study, const std::vector<StartResult>& results, PitchIdentification& out) {
+  const std::string why = fmt::format(
+      "the motion grows beyond all bounds before the last sample, at {:g} s: check units, bounds and formulation",
+      study.target.times.back());
+  const int best = take_starts(results, kNoError, why, out);
+  if (best < 0) return {};
+  return values_at(ranges_of(study.parameters), results[static_cast<std::size_t>(best)].parameters);
 }
 
 /// E as the engine of record simulates the model, and whether the fit agrees.
@@ -123,14 +113,7 @@ void judge(const Study& study, const PitchObjective& objective, std::span<const 
            PitchIdentification& out) {
   out.model = with_values<HeavePitchModel>(study.first, study.parameters, values);
   record_error(study, objective.evaluate(values, 0.0, {}), out);
-  const Eigen::MatrixXd jacobian = objective.jacobian(values);
-  const auto freedom = static_cast<double>(jacobian.rows() - jacobian.cols());
-  const double variance = study.objective(Loss::l2).evaluate(values, 0.0, {}) / freedom;
-  ParameterVerdict found = judge_parameters(ranges_of(study.parameters), values, jacobian, variance);
-  out.verdict = std::move(found.verdict);
-  out.parameters = std::move(found.parameters);
-  out.correlation = std::move(found.correlation);
-  warn_at_bounds(out.parameters, out.warnings);
+  judge_values(ranges_of(study.parameters), objective, study.objective(Loss::l2), values, out);
 }
 
 }  // namespace
@@ -143,7 +126,7 @@ PitchIdentification identify_pitch(const HeavePitchModel& guess, const PitchForc
   out.seed = options.seed;
   const Study study(guess, forcing, target, simulation, options, out.warnings);
   const PitchObjective objective = study.objective(options.loss);
-  const std::vector<double> values = take_starts(study, run_all_starts(study, objective, progress), out);
+  const std::vector<double> values = best_of(study, run_all_starts(study, objective, progress), out);
   if (!values.empty()) {
     judge(study, objective, values, out);
     if (out.outcome == IdentifyOutcome::not_run) out.outcome = IdentifyOutcome::completed;

@@ -4,7 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <crashsim/identify.hpp>
 
@@ -43,6 +47,24 @@ struct StartSummary {
 };
 /// @param no_error starts with E up to this are at the best, too.
 StartSummary summarize_starts(const std::vector<StartResult>& results, double no_error);
+
+/// Takes the starts into what a fit reports: Identification or one like it.
+/// @param why_all_failed the end of the message when none came to a result. @returns the best one's index, -1 for none.
+template <class Fit>
+int take_starts(const std::vector<StartResult>& results, double no_error, std::string_view why_all_failed, Fit& out) {
+  StartSummary summary = summarize_starts(results, no_error);
+  out.starts = std::move(summary.reports);
+  out.starts_at_best = summary.at_best;
+  out.evaluations = summary.evaluations;
+  if (out.starts.size() < results.size()) {
+    out.outcome = IdentifyOutcome::interrupted;
+    out.message = fmt::format("stopped after {} of {} starts", out.starts.size(), results.size());
+  } else if (summary.best < 0) {
+    out.outcome = IdentifyOutcome::every_start_failed;
+    out.message = fmt::format("all {} starts failed: {}", results.size(), why_all_failed);
+  }
+  return summary.best;
+}
 
 /// Uniform number in [0, 1) that depends on (seed, stream, index) only.
 double uniform_random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
