@@ -12,6 +12,7 @@
 
 #include "case_pitch.hpp"
 #include "case_sections.hpp"
+#include "case_traces.hpp"
 
 namespace crashsim {
 namespace {
@@ -64,29 +65,11 @@ void overrule(Unloading& own, const Unloading& asked) {
   own.bilateral = bilateral;
 }
 
-TraceSet trace_set(std::string path, const std::vector<double>& time_s,
-                   std::initializer_list<std::tuple<const char*, Dimension, const std::vector<double>*>> channels) {
-  TraceSet set;
-  set.path = std::move(path);
-  const auto times = std::make_shared<const std::vector<double>>(time_s);
-  for (const auto& [name, dimension, values] : channels) {
-    Trace trace;
-    trace.name = name;
-    trace.id = std::to_string(set.traces.size() + 2);
-    trace.dimension = dimension;
-    trace.time_s = times;
-    trace.values = *values;
-    set.traces.push_back(std::move(trace));
-  }
-  return set;
-}
-
 template <class Motion>
 TraceSet motion_set(std::string path, const Motion& motion) {
-  return trace_set(std::move(path), motion.time_s,
-                   {{"accel_mps2", Dimension::acceleration, &motion.accel_mps2},
-                    {"velocity_mps", Dimension::speed, &motion.velocity_mps},
-                    {"displacement_m", Dimension::length, &motion.displacement_m}});
+  return trace_set(std::move(path), {{"accel_mps2", Dimension::acceleration, motion.time_s, motion.accel_mps2},
+                                     {"velocity_mps", Dimension::speed, motion.time_s, motion.velocity_mps},
+                                     {"displacement_m", Dimension::length, motion.time_s, motion.displacement_m}});
 }
 
 /// The test against the model: up to maximum crush, which the identification looks at, and over the whole record.

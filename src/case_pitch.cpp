@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <memory>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +9,7 @@
 #include <crashsim/error.hpp>
 
 #include "case_sections.hpp"
+#include "case_traces.hpp"
 
 namespace crashsim {
 namespace {
@@ -102,24 +100,6 @@ std::vector<std::string> differences(const PitchResponse& phases, const CoupledR
       "coupled: pitching moves the front where the force acts, so the crush there is {:.4f} m instead of {:.4f} m",
       coupled.max_crush_m, max_crush_m));
   return lines;
-}
-
-TraceSet trace_set(
-    std::string path,
-    std::initializer_list<std::tuple<const char*, Dimension, std::vector<double>, std::vector<double>>> channels) {
-  TraceSet set;
-  set.path = std::move(path);
-  for (const auto& [name, dimension, times, values] : channels) {
-    if (values.empty()) continue;
-    Trace trace;
-    trace.name = name;
-    trace.id = std::to_string(set.traces.size() + 2);
-    trace.dimension = dimension;
-    trace.time_s = std::make_shared<const std::vector<double>>(times);
-    trace.values = values;
-    set.traces.push_back(std::move(trace));
-  }
-  return set;
 }
 
 template <class Motion>

@@ -10,6 +10,7 @@
 #include <crashsim/option_values.hpp>
 #include <crashsim/signal.hpp>
 
+#include "output_times.hpp"
 #include "solver/coupled_recorder.hpp"
 #include "solver/cvode.hpp"
 #include "solver/return_line.hpp"
@@ -20,9 +21,8 @@ namespace {
 constexpr double kDefaultEnd = 0.3;           // [s]
 constexpr double kLocalTolerance = 1e-4;      // CVODE's global error is up to 9,000 times its local tolerance here
 constexpr double kTightestTolerance = 1e-14;  // CVODE cannot keep to less
-constexpr double kMaxSamples = 1e8;
-constexpr double kSmallAngle = 0.2;   // sin and cos are off by 0.7 % and 2 % [rad]
-constexpr double kNegligible = 0.01;  // of the largest: what may go unnoticed
+constexpr double kSmallAngle = 0.2;           // sin and cos are off by 0.7 % and 2 % [rad]
+constexpr double kNegligible = 0.01;          // of the largest: what may go unnoticed
 
 double impact_speed(const CoupledModel& model, const CoupledOptions& options) {
   const double speed = std::isnan(options.impact_speed_mps) ? model.crush.impact_speed_mps : options.impact_speed_mps;
@@ -37,19 +37,6 @@ void check(const CoupledModel& model, const TimeSeries& vertical_force_n) {
     throw InvalidInput(
         "vertical_force_n: there is also a VerticalForceLaw with an angle: give either a series or a law");
   require_set(model.body, &HeavePitchModel::force_arm_m, "HeavePitchModel", "there is a vertical force");
-}
-
-/// 0, dt, ... and the end; the last interval may be shorter.
-std::vector<double> sample_times(double end_s, double dt_s) {
-  constexpr double kSameMultiple = 1e-9;  // an end this near a multiple of dt is one
-  const double intervals = std::max(1.0, std::ceil(end_s / dt_s - kSameMultiple));
-  if (intervals > kMaxSamples)
-    throw InvalidInput(
-        fmt::format("CoupledOptions.dt_s = {} s: gives {:.3g} samples, more than {:g}: take a longer one", dt_s,
-                    intervals, kMaxSamples));
-  std::vector<double> times = uniform_times(0.0, dt_s, static_cast<std::size_t>(intervals) + 1);
-  times.back() = end_s;
-  return times;
 }
 
 void judge(const CoupledSummary& summary, const CrushProblem& problem, CoupledResponse& out) {
@@ -154,7 +141,7 @@ CoupledResponse simulate_coupled(const CoupledModel& model, const CoupledOptions
   CoupledResponse out;
   out.impact_speed_mps = impact_speed(model, options);
   const double end_s = std::isnan(options.end_time_s) ? kDefaultEnd : options.end_time_s;
-  const std::vector<double> times = sample_times(end_s, options.dt_s);
+  const std::vector<double> times = output_times(0.0, end_s, options.dt_s, "CoupledOptions.dt_s");
   const CoupledProblem problem = coupled_problem(with_one_mass(model), out.impact_speed_mps, vertical_force_n);
   CoupledRecorder recorder(problem, times, out);
   try {

@@ -11,29 +11,16 @@
 #include <crashsim/option_values.hpp>
 #include <crashsim/signal.hpp>
 
+#include "output_times.hpp"
 #include "pitch_input.hpp"
 #include "solver/pitch_peaks.hpp"
 
 namespace crashsim {
 namespace {
 
-constexpr double kDefaultEnd = 0.3;  // [s]
-constexpr double kMaxSamples = 1e8;
+constexpr double kDefaultEnd = 0.3;        // [s]
 constexpr double kLongestStepAngle = 0.1;  // of the fastest motion, so that peaks between samples are found [rad]
 constexpr double kFewestSteps = 100.0, kMostDivisions = 20000.0;
-
-/// Uniform times from `first` and the end; the last interval may be shorter.
-/// @throws InvalidInput when there would be too many.
-std::vector<double> sample_times(double first_s, double end_s, double dt_s) {
-  constexpr double kSameMultiple = 1e-9;  // an end this near a multiple of dt is one
-  const double intervals = std::max(1.0, std::ceil((end_s - first_s) / dt_s - kSameMultiple));
-  if (intervals > kMaxSamples)
-    throw InvalidInput(fmt::format("PitchOptions.dt_s = {} s: gives {:.3g} samples, more than {:g}: take a longer one",
-                                   dt_s, intervals, kMaxSamples));
-  std::vector<double> times = uniform_times(first_s, dt_s, static_cast<std::size_t>(intervals) + 1);
-  times.back() = end_s;
-  return times;
-}
 
 /// What the motion is at one output time.
 struct Sample {
@@ -125,7 +112,7 @@ PitchResponse simulate_pitch(const HeavePitchModel& model, const PitchForcing& f
   response.start_time_s = start_s;
   response.modes = modes(model);
   response.notes = notes_on_pitch_input(model, forcing, options, start_s, end_s);
-  response.time_s = sample_times(std::min(0.0, start_s), end_s, options.dt_s);
+  response.time_s = output_times(std::min(0.0, start_s), end_s, options.dt_s, "PitchOptions.dt_s");
   const auto first = std::ranges::lower_bound(response.time_s, start_s - time_rounding(start_s, end_s));
   const std::span samples(first, response.time_s.end());
   run(response, model, options,

@@ -62,6 +62,7 @@ const std::map<std::string, Layer> kLayers = {
     {"solver/crush_force", models},
 
     {"forcing", simulation},
+    {"output_times", simulation},
     {"pitch_input", simulation},
     {"coupled_columns", simulation},
     {"coupled_model", simulation},
@@ -94,6 +95,7 @@ const std::map<std::string, Layer> kLayers = {
     {"case_file", pipeline},
     {"case_outputs", pipeline},
     {"case_pitch", pipeline},
+    {"case_traces", pipeline},
     {"case_sections", pipeline},
     {"design_case", pipeline},
     {"design_outputs", pipeline},
