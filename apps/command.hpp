@@ -81,6 +81,17 @@ class Command {
   /// JSON on stdout, with --json.
   void print_json(const std::string& json) const;
 
+  /// Every option of several structs, for the record.
+  template <class... S>
+  static std::vector<ConfigEntry> options_of(const S&... values) {
+    std::vector<ConfigEntry> all;
+    const auto append = [&all](const std::vector<ConfigEntry>& entries) {
+      all.insert(all.end(), entries.begin(), entries.end());
+    };
+    (append(entries_of(values, "")), ...);
+    return all;
+  }
+
   [[nodiscard]] Record record(std::vector<std::string> arguments, std::vector<ConfigEntry> options,
                               const std::vector<std::string>& inputs) const;
   [[nodiscard]] bool quiet() const { return quiet_; }

@@ -52,12 +52,7 @@ class DesignCommand : public FolderCommand {
 
  private:
   DesignCaseResult run_watched(const Case& study) const {
-    const CooperativeInterrupt keep_what_is_finished;
-    ProgressLine line("starts", quiet());
-    return run_design(study, [&](int done, int total) {
-      line.show(done, total);
-      return !interrupted();
-    });
+    return watch_starts(quiet(), [&](const Progress& progress) { return run_design(study, progress); });
   }
 
   void report(const Case& study, const DesignCaseResult& result) const {

@@ -49,12 +49,7 @@ class IdentifyCommand : public Command {
 
  private:
   Identification identify_watched(const std::vector<Pulse>& pulses) const {
-    const CooperativeInterrupt keep_what_is_finished;
-    ProgressLine line("starts", quiet());
-    return identify(pulses, options_.values, [&](int done, int total) {
-      line.show(done, total);
-      return !interrupted();
-    });
+    return watch_starts(quiet(), [&](const Progress& progress) { return identify(pulses, options_.values, progress); });
   }
 
   void report(const Identification& fit, const Summary& summary) const {

@@ -48,7 +48,9 @@ class IdentifyPitchCommand : public Command {
     check_output(inputs);
     const PitchIdentification fit = identify_watched(forces.forcing, motion);
     if (!fit.parameters.empty()) {
-      const Record made_by = record({file_}, options(), inputs);
+      const Record made_by = record(
+          {file_}, options_of(forcing_.values, motion_.values, options_.values, simulation_.values, vehicle_.values),
+          inputs);
       write(format_vehicle(fit.model, &fit, &made_by));
     }
     report(fit, forces, motion);
@@ -65,14 +67,10 @@ class IdentifyPitchCommand : public Command {
   }
 
   PitchIdentification identify_watched(const PitchForcing& forcing, const MeasuredMotion& motion) const {
-    const CooperativeInterrupt keep_what_is_finished;
-    ProgressLine line("starts", quiet());
-    return identify_pitch(vehicle_.values, forcing,
-                          {motion.heave_m, motion.pitch_rad, motion.heave_velocity_mps, motion.pitch_rate_radps},
-                          simulation_.values, options_.values, [&](int done, int total) {
-                            line.show(done, total);
-                            return !interrupted();
-                          });
+    const PitchTarget target{motion.heave_m, motion.pitch_rad, motion.heave_velocity_mps, motion.pitch_rate_radps};
+    return watch_starts(quiet(), [&](const Progress& progress) {
+      return identify_pitch(vehicle_.values, forcing, target, simulation_.values, options_.values, progress);
+    });
   }
 
   void report(const PitchIdentification& fit, const MeasuredForcing& forces, const MeasuredMotion& motion) const {
@@ -88,18 +86,6 @@ class IdentifyPitchCommand : public Command {
     }
     warn(fit.warnings);
     print_json(format_summary(summary));
-  }
-
-  [[nodiscard]] std::vector<ConfigEntry> options() const {
-    std::vector<ConfigEntry> all = entries_of(forcing_.values, "");
-    const auto append = [&](const std::vector<ConfigEntry>& entries) {
-      all.insert(all.end(), entries.begin(), entries.end());
-    };
-    append(entries_of(motion_.values, ""));
-    append(entries_of(options_.values, ""));
-    append(entries_of(simulation_.values, ""));
-    append(entries_of(vehicle_.values, ""));
-    return all;
   }
 
   std::string file_;

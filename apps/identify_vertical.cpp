@@ -45,11 +45,8 @@ class IdentifyVerticalCommand : public Command {
 
  private:
   VerticalIdentification identify_watched(const VerticalForceTarget& target) const {
-    const CooperativeInterrupt keep_what_is_finished;
-    ProgressLine line("starts", quiet());
-    return identify_vertical(target, law_.values, options_.values, [&](int done, int total) {
-      line.show(done, total);
-      return !interrupted();
+    return watch_starts(quiet(), [&](const Progress& progress) {
+      return identify_vertical(target, law_.values, options_.values, progress);
     });
   }
 
@@ -71,14 +68,7 @@ class IdentifyVerticalCommand : public Command {
   [[nodiscard]] std::vector<ConfigEntry> options() const {
     ForcingOptions forces = forcing_.values;
     forces.file.clear();
-    std::vector<ConfigEntry> all = entries_of(forces, "");
-    const auto append = [&](const std::vector<ConfigEntry>& entries) {
-      all.insert(all.end(), entries.begin(), entries.end());
-    };
-    append(entries_of(crush_.values, ""));
-    append(entries_of(options_.values, ""));
-    append(entries_of(law_.values, ""));
-    return all;
+    return options_of(forces, crush_.values, options_.values, law_.values);
   }
 
   std::string file_;

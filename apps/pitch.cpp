@@ -35,7 +35,8 @@ class PitchCommand : public Command {
     inputs.insert(inputs.end(), measured.input_files.begin(), measured.input_files.end());
     check_output(inputs);
     const PitchResponse response = simulate_pitch(vehicle_.values, measured.forcing, options_.values);
-    write(format_pitch(response, record({file_}, options(), inputs)));
+    write(
+        format_pitch(response, record({file_}, options_of(forcing_.values, options_.values, vehicle_.values), inputs)));
     say(fmt::format("heave and pitch of {}: {}", file_, response.brief_report()));
     for (const std::string& step : measured.steps) say("  " + step);
     warn(measured.warnings);
@@ -49,16 +50,6 @@ class PitchCommand : public Command {
   }
 
  private:
-  [[nodiscard]] std::vector<ConfigEntry> options() const {
-    std::vector<ConfigEntry> all = entries_of(forcing_.values, "");
-    const auto append = [&](const std::vector<ConfigEntry>& entries) {
-      all.insert(all.end(), entries.begin(), entries.end());
-    };
-    append(entries_of(options_.values, ""));
-    append(entries_of(vehicle_.values, ""));
-    return all;
-  }
-
   std::string file_;
   Bound<ForcingOptions> forcing_;
   Bound<PitchOptions> options_;

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <string>
 
+#include "interrupt.hpp"
+
 namespace crashsim::cli {
 
 class ProgressLine {
@@ -22,5 +24,16 @@ class ProgressLine {
   bool shown_ = false;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
+
+/// Runs `work(progress)` with a line that counts starts; the first Ctrl-C stops it and keeps what is finished.
+template <class Work>
+auto watch_starts(bool quiet, const Work& work) {
+  const CooperativeInterrupt keep_what_is_finished;
+  ProgressLine line("starts", quiet);
+  return work([&line](int done, int total) {
+    line.show(done, total);
+    return !interrupted();
+  });
+}
 
 }  // namespace crashsim::cli

@@ -98,12 +98,7 @@ class RunCommand : public FolderCommand {
   }
 
   CaseResult run_watched(const Case& study) const {
-    const CooperativeInterrupt keep_what_is_finished;
-    ProgressLine line("starts", quiet());
-    return run_case(study, [&](int done, int total) {
-      line.show(done, total);
-      return !interrupted();
-    });
+    return watch_starts(quiet(), [&](const Progress& progress) { return run_case(study, progress); });
   }
 
   void report(const Case& study, const CaseResult& result) const {
