@@ -19,7 +19,7 @@ class IdentifyPitchCommand : public Command {
                 "crashsim identify-pitch data/paper/table1.json --mass 1190kg --pitch-inertia 1876 --cg-height 504mm "
                 "--force data/fe-car/C56.csv --longitudinal barrier_impulse_FNX --start impact "
                 "--motion data/fe-car/C56.csv --front LEFT_MID_DZ --front-position=-2.286 --rear LEFT_REAR_DZ "
-                "--rear-position=-3.1327 --cg-position=-1.6 --free force-height --starts 5 -o vehicle.json") {
+                "--rear-position=-3.1327 --cg-position=-2.486 --free force-height --starts 5 -o vehicle.json") {
     app()
         .add_option("vehicle", file_, "vehicle.json, or a TOML file with a [vehicle]: the first guess")
         ->required()
