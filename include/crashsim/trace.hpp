@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <crashsim/error.hpp>
@@ -33,11 +34,13 @@ struct Trace {
 
 /// Everything read from one file or folder.
 struct TraceSet {
-  std::string path;                        ///< As given by the caller.
-  std::string format;                      ///< "csv", "nhtsa_ev5", "radioss_csv", ...
-  std::string title;                       ///< Run or test title, "" when there is none.
-  double mass_kg = kUnset;                 ///< Test mass [kg] when the file says it.
-  double impact_speed_mps = kUnset;        ///< Impact speed [m/s] when the file says it.
+  std::string path;                  ///< As given by the caller.
+  std::string format;                ///< "csv", "nhtsa_ev5", "radioss_csv", ...
+  std::string title;                 ///< Run or test title, "" when there is none.
+  double mass_kg = kUnset;           ///< Test mass [kg] when the file says it.
+  double impact_speed_mps = kUnset;  ///< Impact speed [m/s] when the file says it.
+  /// What the file says about the test or run beside its channels, in its order: {"VEHICLE[1].MODEL", "CAMRY"}.
+  std::vector<std::pair<std::string, std::string>> metadata;
   std::vector<std::string> input_files;    ///< Every file read.
   std::vector<std::string> warnings;       ///< What a careful reader should know.
   std::vector<std::string> compartment_x;  ///< Ids of the channels that measure the compartment's longitudinal motion.

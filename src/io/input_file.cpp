@@ -71,6 +71,9 @@ InputFile::InputFile(std::string path) : path_(std::move(path)) {
   bytes_ = buffer_;
 }
 
+InputFile::InputFile(std::string path, std::string bytes)
+    : path_(std::move(path)), buffer_(std::move(bytes)), bytes_(buffer_) {}
+
 InputFile::~InputFile() {
   if (mapping_ != nullptr) ::munmap(mapping_, bytes_.size());
 }

@@ -11,6 +11,8 @@ class InputFile {
  public:
   /// @throws InvalidInput with path and reason when there is no such file or it cannot be read.
   explicit InputFile(std::string path);
+  /// Bytes that are not in a file, as if they were. @param path what messages call them.
+  InputFile(std::string path, std::string bytes);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
