@@ -1,0 +1,66 @@
+/// libFuzzer target of one trace reader, CRASHSIM_FUZZED_READER: the input is a file's bytes.
+///
+/// What must hold for any bytes: only InvalidInput is thrown; every trace with samples has as many times, which never
+/// decrease; a channel read alone is the same as read among all; and no more memory is held than fuzz_memory.hpp
+/// allows.
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <string>
+
+#include <crashsim/error.hpp>
+
+#include "fuzz_memory.hpp"
+#include "io/reader.hpp"
+
+namespace crashsim {
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+std::vector<std::size_t> all_of(const TraceSet& catalogue) {
+  std::vector<std::size_t> all(catalogue.traces.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+void check(const Trace& trace) {
+  if (!trace.has_samples) return;
+  require(trace.times().size() == trace.values.size());
+  for (std::size_t i = 1; i < trace.values.size(); ++i) require(trace.times()[i] >= trace.times()[i - 1]);
+}
+
+void check_alone(const io::Reader& reader, const io::InputFile& file, const Trace& trace, std::size_t index) {
+  const TraceSet set = reader.read(file, {}, [&](const TraceSet&) { return std::vector{index}; });
+  require(set.traces.at(index).has_samples == trace.has_samples);
+  require(same_bits(set.traces[index].values, trace.values));
+}
+
+void read(const io::Reader& reader, const io::InputFile& file) {
+  if (!reader.detects(file)) return;
+  const TraceSet set = reader.read(file, {}, all_of);
+  for (const Trace& trace : set.traces) check(trace);
+  if (!set.traces.empty()) check_alone(reader, file, set.traces.back(), set.traces.size() - 1);
+}
+
+}  // namespace
+}  // namespace crashsim
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace crashsim::io;
+  const InputFile file("input", std::string(reinterpret_cast<const char*>(data), size));
+  const crashsim::fuzz::MemoryLimit limit(size);
+  try {
+    crashsim::read(CRASHSIM_FUZZED_READER, file);
+  } catch (const crashsim::InvalidInput&) {
+  }
+  return 0;
+}
