@@ -173,6 +173,7 @@ TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& c
   const std::vector<std::size_t> chosen = choose(set);
   for (const std::size_t i : chosen) wanted[column_of(i)] = true;
   auto columns = read_columns(file.bytes(), layout, wanted, time_column, file.path());
+  warn_when_open_ended(file.bytes(), set);
   check_unlabelled_time(heads[time_column], columns[time_column], set);
   scale(columns[time_column], to_seconds);
   const auto time_s = std::make_shared<const std::vector<double>>(std::move(columns[time_column]));

@@ -48,6 +48,9 @@ bool is_comment(std::string_view line) {
   return text.starts_with('#') || text.starts_with('%') || text.starts_with("//");
 }
 
+/// LS-PrePost ends each curve that it saves so.
+bool is_end_of_curve(std::string_view line) { return same_ignoring_case(trimmed(line), "endcurve"); }
+
 std::string_view without_mark(std::string_view comment) {
   return comment.substr(std::min(comment.find_first_not_of("#%/ \t"), comment.size()));
 }
@@ -243,8 +246,14 @@ std::vector<std::vector<double>> read_columns(std::string_view text, const CsvLa
   std::vector<std::vector<double>> columns(layout.columns);
   std::vector<double> row(layout.columns);
   double previous = -std::numeric_limits<double>::infinity();
+  bool ended = false;
   for (Lines lines(text, layout.data_offset, layout.data_line - 1); lines.next();) {
     if (trimmed(lines.line()).empty() || is_comment(lines.line())) continue;
+    if (ended)
+      throw InvalidInput(fmt::format("{}:{}: a second curve begins: save each to a file of its own, or all as CSV",
+                                     path, lines.number()));
+    ended = is_end_of_curve(lines.line());
+    if (ended) continue;
     read_row(lines, layout, wanted, path, row);
     check_time(row[time_column], previous, path, lines.number());
     previous = row[time_column];
@@ -252,6 +261,12 @@ std::vector<std::vector<double>> read_columns(std::string_view text, const CsvLa
       if (wanted[column]) columns[column].push_back(row[column]);
   }
   return columns;
+}
+
+void warn_when_open_ended(std::string_view text, TraceSet& set) {
+  if (text.empty() || text.back() == '\n' || trimmed(text.substr(text.rfind('\n') + 1)).empty()) return;
+  set.warnings.push_back(
+      fmt::format("{}: the last line has no end: if the file was cut off there, its last number is too", set.path));
 }
 
 }  // namespace crashsim::io

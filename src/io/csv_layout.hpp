@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <crashsim/trace.hpp>
+
 namespace crashsim::io {
 
 /// How a delimited text file is laid out.
@@ -34,5 +36,8 @@ std::optional<CsvLayout> find_layout(std::string_view text);
 std::vector<std::vector<double>> read_columns(std::string_view text, const CsvLayout& layout,
                                               const std::vector<bool>& wanted, std::size_t time_column,
                                               const std::string& path);
+
+/// Warns when the last line has no end: a file cut off within its last number looks like one that ends there.
+void warn_when_open_ended(std::string_view text, TraceSet& set);
 
 }  // namespace crashsim::io

@@ -152,6 +152,7 @@ TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& c
   wanted[0] = true;
   for (const std::size_t i : chosen) wanted[i + 1] = true;
   auto columns = read_columns(file.bytes(), layout, wanted, 0, file.path());
+  warn_when_open_ended(file.bytes(), set);
   const auto scale = [&](std::vector<double>& values, const Head& head) {
     const double factor = head.unit ? head.unit->to_si : to_si(system, head.dimension);
     if (factor != 1.0) std::for_each(values.begin(), values.end(), [&](double& value) { value *= factor; });

@@ -4,12 +4,16 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <crashsim/error.hpp>
+#include <crashsim/files.hpp>
 #include <crashsim/table_io.hpp>
 #include <crashsim/trace_io.hpp>
 
+#include "support/random.hpp"
+#include "support/source_dir.hpp"
 #include "support/temp_dir.hpp"
 
 namespace crashsim {
@@ -64,6 +68,20 @@ INSTANTIATE_TEST_SUITE_P(
         Foreign{"no_header", "0 0\n1 -1.5\n2 -30", "time:ms,accel:g"},
         Foreign{"header_corrected", "time_s,accel\n0,0\n1,-1.5\n2,-30\n", "time:ms,accel:g"},
         Foreign{"trailing_separator", "time_ms,accel_g\n0,0,\n1,-1.5,\n2,-30,\n"},
+        Foreign{"abaqus_report",
+                "\n\n               X      A1 PI: CAR-1 N: 101 \n\n           0.              0.     \n"
+                "        1.E-03          -1.5     \n        2.E-03         -30.E+00  \n\n\n",
+                "time:s,accel:g"},
+        Foreign{"pam_crash_curve",
+                "# PAM-VIEW\n# NODE 101 X-ACCELERATION\n  0.0000000E+00   0.0000000E+00\n"
+                "  1.0000000E-03  -1.5000000E+00\n  2.0000000E-03  -3.0000000E+01\n",
+                "time:s,accel:g"},
+        Foreign{"ls_prepost_curve",
+                "Curveplot\nLS-DYNA keyword deck by LS-PrePost\nTime\nX-acceleration\nA   101 #pts=3\n"
+                "* Minval=  -30.000000 at time=   2.000000\n* Maxval=    0.000000 at time=   0.000000\n"
+                "   0.0000000e+00   0.0000000e+00\n   1.0000000e+00  -1.5000000e+00\n   2.0000000e+00  -3.0000000e+01\n"
+                "endcurve\n",
+                "time:ms,accel:g"},
         Foreign{"no_newline_at_end", "time_s,accel_g\n0,0\n0.001,-1.5\n0.002,-30"}));
 
 TEST(Csv, UnitsInBracketsAreNotPartOfTheNameSuffixesAre) {
@@ -126,6 +144,47 @@ TEST(Csv, TimeWithoutAUnitIsSecondsWithAWarning) {
   EXPECT_THAT(set.warnings, ElementsAre(HasSubstr("time column 'time' has no unit: taken as seconds")));
 }
 
+/// Of a file cut off at any byte there is an error, or whole rows; the last number may be cut, and then it is said.
+void expect_honest_when_cut(const std::string& path, const std::string& text) {
+  const test::TempDir dir;
+  const TraceSet whole = read_traces(path);
+  const std::vector<double>& whole_last = whole.traces.back().values;
+  test::Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const auto at = static_cast<std::size_t>(random.between(0.0, static_cast<double>(text.size())));
+    const std::string cut = dir.file("cut.csv", text.substr(0, at));
+    SCOPED_TRACE(at);
+    TraceSet set;
+    try {
+      set = read_traces(cut);
+    } catch (const InvalidInput& error) {
+      EXPECT_THAT(error.what(), HasSubstr("cut.csv"));
+      continue;
+    }
+    ASSERT_EQ(set.traces.size(), whole.traces.size());
+    const std::vector<double>& last = set.traces.back().values;
+    ASSERT_LE(last.size(), whole_last.size());
+    for (std::size_t k = 0; k + 1 < last.size(); ++k) ASSERT_EQ(last[k], whole_last[k]);
+    if (!last.empty() && last.back() != whole_last[last.size() - 1]) {
+      EXPECT_THAT(set.warnings, testing::Contains(HasSubstr("the last line has no end")));
+    }
+  }
+}
+
+TEST(Csv, AFileCutOffIsRefusedOrSaysThatItsLastNumberMayBeCut) {
+  const test::TempDir dir;
+  std::string text = "time_s,a_mps2,b_m\n";
+  test::Random random(3);
+  for (int i = 0; i < 100; ++i)
+    text += fmt::format("{},{},{}\n", 1e-3 * i, random.between(-300, 300), random.between(-1, 1));
+  expect_honest_when_cut(dir.file("a.csv", text), text);
+}
+
+TEST(Csv, AnFeRunsTableCutOffIsRefusedOrSaysThatItsLastNumberMayBeCut) {
+  const std::string path = std::string(test::source_dir()) + "/data/fe-car/C56.csv";
+  expect_honest_when_cut(path, read_file(path));
+}
+
 struct Bad {
   const char* what;
   const char* text;
@@ -155,6 +214,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"time_repeats", "time_s,a_g\n0,1\n1,1\n1,1\n", "bad.csv:4: time 1 is not after the one before it, 1"},
         Bad{"time_is_nan", "time_s,a_g\n0,1\nnan,1\n", "bad.csv:3: time is nan: must be a finite number"},
         Bad{"time_is_empty", "time_s,a_g\n0,1\n,1\n", "bad.csv:3: time is nan"},
+        Bad{"two_curves", "Curveplot\n0 1\n1 2\nendcurve\nB 2 #pts=2\n0 1\n1 2\nendcurve\n",
+            "bad.csv:5: a second curve begins: save each to a file of its own", "time:s,accel:g"},
         Bad{"no_header", "0,1\n1,2\n", "no header: name the 2 columns, for example columns = time:s,accel:g"},
         Bad{"header_does_not_fit", "time_s,a_g,b_g\n0,1\n1,2\n",
             "bad.csv:1: this line before the numbers is no header"},
