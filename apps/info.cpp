@@ -1,10 +1,9 @@
 /// crashsim info: what a trace file holds.
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,6 +34,42 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// Channels that one of a file's histories holds, over the time that any of them spans.
+struct Database {
+  std::string name;
+  std::size_t channels = 0, samples = 0;
+  double first_s = kUnset, last_s = kUnset;
+};
+
+std::vector<Database> databases_of(const TraceFileInfo& info) {
+  std::vector<Database> databases;
+  for (const ChannelInfo& c : info.channels) {
+    if (c.database.empty()) continue;
+    auto found = std::find_if(databases.begin(), databases.end(), [&](const auto& d) { return d.name == c.database; });
+    if (found == databases.end()) found = databases.insert(found, Database{c.database});
+    ++found->channels;
+    found->samples = std::max(found->samples, c.samples);
+    found->first_s = std::fmin(found->first_s, c.first_s);
+    found->last_s = std::fmax(found->last_s, c.last_s);
+  }
+  return databases;
+}
+
+/// Keys in the file's order; a repeated one has its values in a list.
+Json metadata_json(const TraceSet& set) {
+  Json json = Json::object();
+  for (const auto& [key, value] : set.metadata) {
+    Json& entry = json[key];
+    if (entry.is_null())
+      entry = value;
+    else if (entry.is_array())
+      entry.push_back(value);
+    else
+      entry = Json::array({entry, value});
+  }
+  return json;
+}
+
 Json to_json(const TraceFileInfo& info) {
   Json json = {{"path", info.set.path},
                {"format", info.set.format},
@@ -43,10 +78,19 @@ Json to_json(const TraceFileInfo& info) {
                {"impact_speed_mps", number(info.set.impact_speed_mps)},
                {"compartment_x", info.set.compartment_x},
                {"warnings", info.set.warnings},
+               {"metadata", metadata_json(info.set)},
+               {"databases", Json::array()},
                {"channels", Json::array()}};
+  for (const Database& d : databases_of(info))
+    json["databases"].push_back({{"name", d.name},
+                                 {"channels", d.channels},
+                                 {"samples", d.samples},
+                                 {"first_s", number(d.first_s)},
+                                 {"last_s", number(d.last_s)}});
   for (const ChannelInfo& c : info.channels)
     json["channels"].push_back({{"id", c.id},
                                 {"name", c.name},
+                                {"database", c.database},
                                 {"location", c.location},
                                 {"axis", c.axis == ' ' ? "" : std::string(1, c.axis)},
                                 {"unit", c.unit},
@@ -68,14 +112,30 @@ std::string range_of(double low, double high) {
   return std::isnan(low) ? "-" : fmt::format("{:.4g} .. {:.4g}", low, high);
 }
 
-std::string table_of(const TraceFileInfo& info) {
+/// Format and title, what the file says of its test, its databases.
+std::string heading_of(const TraceFileInfo& info) {
+  constexpr std::size_t kFewFields = 12;
   const TraceSet& set = info.set;
   std::string text = fmt::format("{}: {}{}\n", set.path, set.format, set.title.empty() ? "" : ", " + set.title);
+  if (set.metadata.size() > kFewFields) {
+    text += fmt::format("  {} header fields: --json shows them\n", set.metadata.size());
+  } else {
+    for (const auto& [key, value] : set.metadata) text += fmt::format("  {}: {}\n", key, value);
+  }
   if (!std::isnan(set.mass_kg)) text += fmt::format("  mass {:g} kg\n", set.mass_kg);
   if (!std::isnan(set.impact_speed_mps))
     text += fmt::format("  impact speed {:.6g} m/s ({:.4g} km/h)\n", set.impact_speed_mps, 3.6 * set.impact_speed_mps);
   if (!set.compartment_x.empty())
     text += fmt::format("  longitudinal channels of the compartment: {}\n", fmt::join(set.compartment_x, ", "));
+  for (const Database& d : databases_of(info))
+    text += fmt::format("  {}: {} channels of up to {} samples, {} s\n", d.name, d.channels, d.samples,
+                        range_of(d.first_s, d.last_s));
+  return text;
+}
+
+std::string table_of(const TraceFileInfo& info) {
+  const TraceSet& set = info.set;
+  std::string text = heading_of(info);
   std::size_t id = 2, name = 4, unit = 4;
   for (const ChannelInfo& c : info.channels) {
     id = std::max(id, c.id.size());
@@ -105,12 +165,11 @@ class InfoCommand : public Command {
 
   int run() override {
     resolve(options_);
-    const ReadOptions read{{}, options_.values.columns, options_.values.units};
+    ReadOptions read{{}, options_.values.columns, options_.values.units};
+    if (!options_.values.filter.empty()) read.channels = {options_.values.filter};
     Json all = Json::array();
     for (const std::string& file : files_) {
-      TraceFileInfo info = inspect_traces(file, read);
-      if (!options_.values.filter.empty())
-        std::erase_if(info.channels, [&](const ChannelInfo& c) { return !is_like(c); });
+      const TraceFileInfo info = inspect_traces(file, read);
       if (json())
         all.push_back(to_json(info));
       else
@@ -121,13 +180,6 @@ class InfoCommand : public Command {
   }
 
  private:
-  [[nodiscard]] bool is_like(const ChannelInfo& channel) const {
-    const auto matches = [&](const std::string& text) {
-      return ::fnmatch(options_.values.filter.c_str(), text.c_str(), 0) == 0;
-    };
-    return matches(channel.id) || matches(channel.name);
-  }
-
   std::vector<std::string> files_;
   Bound<InfoOptions> options_;
 };

@@ -79,6 +79,7 @@ ChannelInfo describe(const Trace& trace) {
   ChannelInfo info;
   info.id = trace.id;
   info.name = trace.name;
+  info.database = trace.database;
   info.location = trace.location;
   info.axis = trace.axis;
   info.unit = trace.dimension == Dimension::unknown ? trace.source_unit : si_symbol(trace.dimension);
@@ -110,11 +111,12 @@ TraceSet read_traces(const std::string& path, const ReadOptions& options) {
 }
 
 TraceFileInfo inspect_traces(const std::string& path, const ReadOptions& options) {
-  TraceFileInfo info{read_traces(path, options), {}};
-  for (Trace& trace : info.set.traces) {
-    info.channels.push_back(describe(trace));
-    trace.values = {};
-  }
+  std::vector<std::size_t> chosen;
+  TraceFileInfo info{
+      io::read_chosen(path, options,
+                      [&](const TraceSet& catalogue) { return chosen = io::channels_named_by(options, catalogue); }),
+      {}};
+  for (const std::size_t i : chosen) info.channels.push_back(describe(info.set.traces[i]));
   info.set.traces.clear();
   return info;
 }

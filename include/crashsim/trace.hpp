@@ -15,10 +15,12 @@ namespace crashsim {
 
 /// One channel over time, in SI units, with where it came from.
 struct Trace {
-  std::string id;        ///< Number or code in its file: "93", "10SEATLERE00ACXP"; the column number for CSV.
-  std::string name;      ///< What its file calls it.
-  std::string location;  ///< Sensor location or node ("FLLR"), "" when the file does not say.
-  char axis = ' ';       ///< 'X', 'Y', 'Z' (SAE J1733: forward, right, down) or ' '.
+  std::string id;    ///< Number or code in its file: "93", "10SEATLERE00ACXP"; the column number for CSV.
+  std::string name;  ///< What its file calls it.
+  std::string
+      database;  ///< Which of a file's histories it belongs to ("nodout", "glstat"), "" where there is one only.
+  std::string location;                      ///< Sensor location or node ("FLLR"), "" when the file does not say.
+  char axis = ' ';                           ///< 'X', 'Y', 'Z' (SAE J1733: forward, right, down) or ' '.
   Dimension dimension = Dimension::unknown;  ///< What it measures.
   std::string source_unit;  ///< Unit in the file, before conversion to SI; "" when the file does not say.
   std::string problem;      ///< Why it must not be used ("no valid data"), "" when its source has no doubt.

@@ -23,8 +23,9 @@ TraceSet read_traces(const std::string& path, const ReadOptions& options = {});
 
 /// One line of `crashsim info`: a channel without its samples.
 struct ChannelInfo {
-  std::string id, name, location, unit,
-      status;  ///< unit: SI symbol or the file's own when unknown; status: "ok" or why not.
+  std::string id, name, database, location;
+  std::string unit;    ///< SI symbol, or the file's own when it is unknown.
+  std::string status;  ///< "ok" or why not.
   char axis = ' ';
   std::size_t samples = 0;
   double first_s = kUnset, last_s = kUnset;  ///< Time range [s].
@@ -33,13 +34,13 @@ struct ChannelInfo {
   double min = kUnset, max = kUnset;         ///< Range of the samples [SI].
 };
 
-/// What a file holds, with every channel described but no samples kept.
+/// What a file holds, with the channels described but no samples kept.
 struct TraceFileInfo {
-  TraceSet set;  ///< `traces` is empty.
-  std::vector<ChannelInfo> channels;
+  TraceSet set;                       ///< `traces` is empty.
+  std::vector<ChannelInfo> channels;  ///< Those that the options choose.
 };
 
-/// Describes a file. @throws InvalidInput as read_traces().
+/// Describes a file, in one pass over it. @throws InvalidInput as read_traces().
 TraceFileInfo inspect_traces(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace crashsim

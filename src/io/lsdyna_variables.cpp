@@ -115,6 +115,7 @@ Dimension lsdyna_dimension(LsdynaVariable variable) {
 
 Trace lsdyna_trace(LsdynaVariable variable, std::string_view entity, std::string_view title) {
   Trace trace;
+  trace.database = std::string(variable.database);
   trace.location = std::string(trimmed(title).empty() ? entity : trimmed(title));
   trace.id = entity.empty() ? fmt::format("{}/{}", variable.database, variable.name)
                             : fmt::format("{}/{}/{}", variable.database, entity, variable.name);
