@@ -40,4 +40,12 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
   return pieces;
 }
 
+/// The first few of many names, for messages: "a, b, c, d, e, ..".
+inline std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, names.size()); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > kShown ? text + ", .." : text;
+}
+
 }  // namespace crashsim

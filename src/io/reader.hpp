@@ -32,6 +32,7 @@ struct Reader {
 };
 
 extern const Reader kNhtsaReader;
+extern const Reader kLsdynaBinoutReader;
 extern const Reader kRadiossCsvReader;
 extern const Reader kCsvReader;
 
