@@ -264,6 +264,13 @@ TEST(LsdynaBinoutFault, ACutLosesOnlyTheStateThatWasBeingWritten) {
               ElementsAre(HasSubstr("and the states they leave incomplete: nodout/d000003")));
 }
 
+TEST(LsdynaBinoutFault, ACutInTheFirstStateLeavesNothing) {
+  const LsdaWriter writer = three_states([](LsdaWriter& w, int) { w.write("y_velocity", std::vector<double>{3, 4}); });
+  EXPECT_THAT(refusal(writer.bytes().substr(0, writer.bytes().find("y_velocity") + 12)),
+              testing::AllOf(HasSubstr("a binout without time histories"),
+                             HasSubstr("and the states they leave incomplete: nodout/d000001")));
+}
+
 TEST(LsdynaBinoutFault, DamagedBytesAreRefusedOrSaid) {
   test::Random random(8);
   const std::string bytes = test::binout_bytes<double>(test::random_binout(random, 5), {2, 4, 1, 1, false});
