@@ -93,9 +93,9 @@ ChannelInfo describe(const Trace& trace) {
   info.uniform = !std::isnan(uniform_step(times));
   if (times.size() > 1) info.rate_hz = static_cast<double>(times.size() - 1) / (times.back() - times.front());
   std::size_t missing = 0;
-  for (const double value : trace.values) {
-    info.min = std::fmin(info.min, value);
-    info.max = std::fmax(info.max, value);
+  for (const double value : trace.values) {  // comparisons with NaN are false: the first number starts the range
+    if (!(value >= info.min)) info.min = std::isnan(value) ? info.min : value;
+    if (!(value <= info.max)) info.max = std::isnan(value) ? info.max : value;
     if (std::isnan(value)) ++missing;
   }
   if (missing > 0 && trace.problem.empty())
