@@ -33,6 +33,7 @@ struct Reader {
 
 extern const Reader kNhtsaReader;
 extern const Reader kLsdynaBinoutReader;
+extern const Reader kLsdynaAsciiReader;
 extern const Reader kRadiossCsvReader;
 extern const Reader kCsvReader;
 
