@@ -92,7 +92,7 @@ void read_lsdyna_lines(const LsdynaLines& database, const LsdynaInput& input, Tr
   CompleteLines all(input.text, input.states);
   database.parse(all, slots);
   slots.finish();
-  states.give(set, chosen, input.units);
+  states.give(set, chosen, input.units, input.text);
   slots.warn(set);
 }
 

@@ -323,7 +323,7 @@ void read_nodout(const LsdynaInput& input, TraceSet& set, const Choose& choose) 
   nodout.choose(chosen);
   LsdynaStates states(chosen.size(), nodout.expected_states());
   nodout.read(states);
-  states.give(set, chosen, input.units);
+  states.give(set, chosen, input.units, input.text);
   nodout.warn(set);
 }
 

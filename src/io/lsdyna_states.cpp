@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "text.hpp"
+
 namespace crashsim::io {
 namespace {
 
@@ -67,7 +69,8 @@ void LsdynaStates::lose(double time, std::size_t from, std::size_t to, const std
   lost_.add(1, time);
 }
 
-void LsdynaStates::give(TraceSet& set, const std::vector<std::size_t>& chosen, const UnitSystem& units) {
+void LsdynaStates::give(TraceSet& set, const std::vector<std::size_t>& chosen, const UnitSystem& units,
+                        std::string_view text) {
   flush();
   if (times_.empty()) {
     const std::optional<Loss>& loss = first_loss_ ? first_loss_ : cut_;
@@ -85,6 +88,9 @@ void LsdynaStates::give(TraceSet& set, const std::vector<std::size_t>& chosen, c
     trace.has_samples = true;
   }
   if (single) set.warnings.push_back(fmt::format("{}: has one state only, which may be cut short", set.path));
+  if (const std::size_t line = text.rfind('\n') + 1; !cut_ && !trimmed(text.substr(line)).empty())
+    set.warnings.push_back(fmt::format("{}: ends in the middle of a line: left out {} bytes from byte {} on", set.path,
+                                       text.size() - line, line));
   warn(set, chosen);
 }
 

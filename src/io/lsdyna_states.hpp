@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <crashsim/trace.hpp>
@@ -31,8 +32,8 @@ class LsdynaStates {
   void lose(double time, std::size_t from, std::size_t to, const std::string& why, bool at_end);
 
   /// Moves times and values into the chosen traces, in SI units, and says in the warnings what was lost.
-  /// @throws InvalidInput when there is no state.
-  void give(TraceSet& set, const std::vector<std::size_t>& chosen, const UnitSystem& units);
+  /// @param text the whole file. @throws InvalidInput when there is no state.
+  void give(TraceSet& set, const std::vector<std::size_t>& chosen, const UnitSystem& units, std::string_view text);
 
  private:
   static constexpr std::size_t kBatch = 8;  // values of one channel that fill a line of the cache
