@@ -1,9 +1,8 @@
 /// Energies of LS-DYNA: of the whole model (glstat) and of its parts (matsum).
 
 #include <array>
+#include <limits>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "io/lsdyna_ascii.hpp"
 #include "io/lsdyna_variables.hpp"
@@ -39,10 +38,9 @@ void parse_glstat(CompleteLines& lines, LsdynaSlots& slots) {
   for (std::string_view line; slots.next(lines, line);) {
     const auto [label, rest] = parse_dotted_line(line);
     double value = 0.0;
-    const char* end = rest.data() + rest.size();
-    const char* after = scan_fortran(rest.data(), end, value);
-    if (label.empty() || after == rest.data() || (after != end && !is_blank(*after))) continue;
-    const std::string_view suffix = trimmed({after, static_cast<std::size_t>(end - after)});
+    const std::size_t length = scan_fortran(rest, value);
+    if (label.empty() || length == 0 || (length < rest.size() && !is_blank(rest[length]))) continue;
+    const std::string_view suffix = trimmed(rest.substr(length));
     if (label == "time")
       slots.start(suffix.empty() ? value : std::numeric_limits<double>::quiet_NaN(), lines.offset());
     else
@@ -92,11 +90,10 @@ std::size_t parse_assignments(std::string_view line, std::array<Assignment, kMos
     if (name.empty() || name.find(' ') != std::string_view::npos) return 0;
     rest = trimmed(rest.substr(sign + 1));
     double value = 0.0;
-    const char* end = rest.data() + rest.size();
-    const char* after = scan_fortran(rest.data(), end, value);
-    if (after == rest.data() || (after != end && !is_blank(*after))) return 0;
+    const std::size_t length = scan_fortran(rest, value);
+    if (length == 0 || (length < rest.size() && !is_blank(rest[length]))) return 0;
     found[count++] = {name, value};
-    rest = trimmed({after, static_cast<std::size_t>(end - after)});
+    rest = trimmed(rest.substr(length));
   }
   return count;
 }

@@ -124,7 +124,7 @@ void Nodout::learn_block(const NodoutHead& head, std::size_t at) {
     rows_.push_back({{place->at - start_, place->length, place->end - start_}, kind, node});
   }
   block.last = rows_.size();
-  blocks_.push_back(block);
+  if (block.first != block.last) blocks_.push_back(block);
 }
 
 void Nodout::learn() {

@@ -35,13 +35,14 @@ bool CompleteLines::next(std::string_view& line) {
   return true;
 }
 
-const char* scan_fortran(const char* p, const char* end, double& value) {
-  if (p != end && *p == '*') {
+std::size_t scan_fortran(std::string_view text, double& value) {
+  if (text.starts_with('*')) {
     value = std::numeric_limits<double>::quiet_NaN();
-    return std::find_if(p, end, [](char c) { return c != '*'; });
+    return std::min(text.find_first_not_of('*'), text.size());
   }
+  const char *p = text.data(), *const end = p + text.size();
   const char* last = scan_number(p, end, value);
-  if (last == p) return p;
+  if (last == p) return 0;
   if (const char* after = end_of_bare_exponent(last, end); after != last) {
     const std::string_view mantissa(p, static_cast<std::size_t>(last - p));
     if (mantissa.find('.') != std::string_view::npos && mantissa.find_first_of("eE") == std::string_view::npos) {
@@ -51,25 +52,24 @@ const char* scan_fortran(const char* p, const char* end, double& value) {
     }
   }
   if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
-  return last;
+  return static_cast<std::size_t>(last - p);
 }
 
 bool is_fortran_number(std::string_view text, double& value) {
   text = trimmed(text);
-  const char* end = text.data() + text.size();
-  return !text.empty() && scan_fortran(text.data(), end, value) == end;
+  return !text.empty() && scan_fortran(text, value) == text.size();
 }
 
 std::size_t scan_numbers(std::string_view text, std::span<double> numbers) {
   text = trimmed(text);
-  const char *p = text.data(), *const end = p + text.size();
   for (std::size_t count = 0;; ++count) {
-    while (p != end && is_blank(*p)) ++p;
-    if (p == end) return count;
+    if (text.empty()) return count;
     if (count == numbers.size()) return 0;
-    const char* after = scan_fortran(p, end, numbers[count]);
-    if (after == p || (after != end && !is_blank(*after) && !is_sign(*after) && *after != '*')) return 0;
-    p = after;
+    const std::size_t length = scan_fortran(text, numbers[count]);
+    text.remove_prefix(length);
+    const bool has_end = text.empty() || is_blank(text[0]) || is_sign(text[0]) || text[0] == '*';
+    if (length == 0 || !has_end) return 0;
+    text = trimmed(text);
   }
 }
 

@@ -26,9 +26,10 @@ class CompleteLines {
   std::size_t offset_ = 0, next_ = 0;
 };
 
-/// Reads a number as Fortran writes it: also "1.23450-101", whose exponent left no room for its E. One that overflowed
-/// its field ("*****") or is not finite becomes NaN. Returns where it ends, `p` when there is none.
-const char* scan_fortran(const char* p, const char* end, double& value);
+/// Reads the number that a text starts with, as Fortran writes it: also "1.23450-101", whose exponent left no room for
+/// its E. One that overflowed its field ("*****") or is not finite becomes NaN. Returns its length, 0 when there is
+/// none.
+std::size_t scan_fortran(std::string_view text, double& value);
 
 /// Whether a text is one such number, with blanks around it.
 bool is_fortran_number(std::string_view text, double& value);

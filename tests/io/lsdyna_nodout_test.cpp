@@ -182,6 +182,21 @@ TEST(LsdynaNodout, RotationsMayBeAbsent) {
   EXPECT_THAT(set.warnings, IsEmpty());
 }
 
+TEST(LsdynaNodout, ABlockWithoutRowsIsNoPartOfAState) {
+  const auto state = [](const char* time) {
+    const std::string head = test::nodout_head(1, time) + "\n\n";
+    return head + test::kTranslations +
+           "\n        7  1.00000E+00 2.00000E+00 3.00000E+00-4.00000E+00-5.00000E+00 6.00000E+00 7.00000E+00"
+           " 8.00000E+00 9.00000E+00 1.00000E+01 1.10000E+01 1.20000E+01\n" +
+           head + test::kRotations + "\n\n";
+  };
+  std::string text = state(" 0.0000000E+00") + state(" 1.0000000E-03");
+  text.erase(text.rfind(" n o d a l"));
+  const TraceSet set = read(text);
+  ASSERT_EQ(set.traces.size(), 12u);
+  EXPECT_THAT(with_id(set, "nodout/7/x_velocity").values, ElementsAre(-4.0, -4.0));
+}
+
 TEST(LsdynaNodout, ColumnsMayBeWiderAndHaveOtherNames) {
   const auto state = [](const char* time, double x) {
     return fmt::format("{}\n\n nodal point   x-disp       y-disp      temperature\n{:20d}{:15.7E}{:15.7E}{:15.7E}\n\n",
