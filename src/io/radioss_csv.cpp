@@ -4,13 +4,14 @@
 /// Numbered rigid-wall columns are the run's own cumulative impulses; named ones the converter has turned into forces.
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "io/csv_layout.hpp"
+#include "io/radioss_variables.hpp"
 #include "io/reader.hpp"
 #include "io/unit_system.hpp"
 #include "text.hpp"
@@ -18,8 +19,7 @@
 namespace crashsim::io {
 namespace {
 
-constexpr std::array<std::string_view, 9> kNodeVariables = {"DX", "DY", "DZ", "VX", "VY", "VZ", "AX", "AY", "AZ"};
-constexpr std::array<std::string_view, 6> kWallVariables = {"FNX", "FNY", "FNZ", "FTX", "FTY", "FTZ"};
+constexpr std::size_t kVariablesOfNodes = 9, kVariablesOfWalls = 6;  // DX .. AZ and FNX .. FTZ, as decks ask for them
 constexpr std::string_view kNumbered = " var ";
 
 /// What a column holds.
@@ -35,10 +35,7 @@ std::string numbered_entity(std::string_view name) {
   if (at == std::string_view::npos) return "";
   const std::string_view number = trimmed(name.substr(at + kNumbered.size()));
   if (number.empty() || !std::all_of(number.begin(), number.end(), is_digit)) return "";
-  std::string text;
-  for (const char c : trimmed(name.substr(0, at)))
-    if (!is_blank(c) || text.back() != ' ') text += is_blank(c) ? ' ' : c;
-  return text;
+  return with_single_blanks(name.substr(0, at));
 }
 
 /// The name after the entity's number, or the whole when there is none: "TH RWALL 1 Barrier" is "Barrier".
@@ -56,14 +53,13 @@ std::string short_name(const std::string& entity) {
 /// Names the numbered variables of one entity, which stand in a fixed order.
 void name_numbered(const std::string& entity, std::size_t count, std::vector<Head>& heads) {
   const bool is_wall = to_lower(entity).find("wall") != std::string::npos;
+  const bool in_order = count == (is_wall ? kVariablesOfWalls : kVariablesOfNodes);
   for (std::size_t i = 0; i < count; ++i) {
     Head head{short_name(entity), fmt::format("var{}", i + 1), Dimension::unknown, std::nullopt};
-    if (is_wall && count == kWallVariables.size()) {
-      head.variable = kWallVariables[i];
-      head.dimension = Dimension::impulse;
-    } else if (!is_wall && count == kNodeVariables.size()) {
-      head.variable = kNodeVariables[i];
-      head.dimension = fe_dimension(head.variable);
+    if (in_order) {
+      const auto variable = radioss_group_variable(is_wall ? kRadiossWalls : kRadiossNodes, static_cast<int>(i) + 1);
+      head.variable = variable.name;
+      head.dimension = variable.dimension;
     }
     heads.push_back(std::move(head));
   }
@@ -72,7 +68,8 @@ void name_numbered(const std::string& entity, std::size_t count, std::vector<Hea
 /// "LEFT_REAR_VX", "part1      KE", "INTERNAL ENERGY", "mass_Mg", "barrier_impulse_FNX_N.s".
 Head named_head(std::string_view name) {
   const std::string_view text = trimmed(name);
-  if (const Dimension whole = fe_dimension(text); whole != Dimension::unknown)
+  const std::size_t padding = text.rfind("  ");  // between the name of a part and its "MASS"
+  if (const Dimension whole = fe_dimension(text); whole != Dimension::unknown && padding == std::string_view::npos)
     return {"", std::string(text), whole, std::nullopt};
   for (std::size_t at = text.find('_'); at != std::string_view::npos; at = text.find('_', at + 1)) {
     const auto unit = find_unit(text.substr(at + 1));
@@ -81,7 +78,6 @@ Head named_head(std::string_view name) {
     const bool energy = unit->dimension == Dimension::moment && fe_dimension(variable) == Dimension::energy;
     return {"", variable, energy ? Dimension::energy : unit->dimension, unit};
   }
-  const std::size_t padding = text.rfind("  ");
   const std::size_t at = padding == std::string_view::npos ? text.rfind('_') : padding + 1;
   if (at == std::string_view::npos || at == 0) return {"", std::string(text), Dimension::unknown, std::nullopt};
   const std::string_view variable = text.substr(at + 1);
@@ -104,9 +100,11 @@ std::vector<Head> parse_heads(const std::vector<std::string>& names) {
   return heads;
 }
 
+/// DX, VY, AZ of an entity, without a unit.
 bool is_motion(const Head& head) {
-  return !head.entity.empty() && !head.unit &&
-         std::find(kNodeVariables.begin(), kNodeVariables.end(), head.variable) != kNodeVariables.end();
+  constexpr Dimension kMotion[] = {Dimension::length, Dimension::speed, Dimension::acceleration};
+  return !head.entity.empty() && !head.unit && head.variable.size() == 2 &&
+         std::find(std::begin(kMotion), std::end(kMotion), head.dimension) != std::end(kMotion);
 }
 
 bool is_radioss(const CsvLayout& layout) {
@@ -126,15 +124,8 @@ std::optional<CsvLayout> radioss_layout(const InputFile& file) {
 bool detects(const InputFile& file) { return radioss_layout(file).has_value(); }
 
 Trace describe(const Head& head, std::size_t column) {
-  Trace trace;
-  trace.id = std::to_string(column + 1);
-  trace.name = head.entity.empty() ? head.variable : fmt::format("{}_{}", head.entity, head.variable);
-  trace.location = head.entity;
-  trace.dimension = head.dimension;
-  trace.has_samples = false;
+  Trace trace = radioss_trace(head.entity, head.variable, head.dimension, column + 1);
   if (head.unit) trace.source_unit = head.unit->name;
-  const char last = head.variable.empty() ? ' ' : head.variable.back();
-  if (!head.entity.empty() && last >= 'X' && last <= 'Z') trace.axis = last;
   return trace;
 }
 
@@ -166,7 +157,7 @@ TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& c
     trace.time_s = time_s;
     trace.has_samples = true;
   }
-  if (options.units.empty()) warn_when_implausible(set);
+  warn_when_implausible(set, system);
   return set;
 }
 

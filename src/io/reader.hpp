@@ -34,6 +34,7 @@ struct Reader {
 extern const Reader kNhtsaReader;
 extern const Reader kLsdynaBinoutReader;
 extern const Reader kLsdynaAsciiReader;
+extern const Reader kRadiossT01Reader;
 extern const Reader kRadiossCsvReader;
 extern const Reader kCsvReader;
 

@@ -13,6 +13,8 @@ namespace crashsim::io {
 /// What one unit of mass, length and time is in SI.
 struct UnitSystem {
   double mass_kg = 1.0, length_m = 1.0, time_s = 1.0;
+
+  friend bool operator==(const UnitSystem&, const UnitSystem&) = default;
 };
 
 /// "kg-m-s", "t-mm-s", "kg-mm-ms" or "g-mm-ms"; SI when empty. @throws InvalidInput listing them.
@@ -25,7 +27,9 @@ double to_si(const UnitSystem& system, Dimension dimension);
 /// (energy), XMOM (momentum), MASS, time. unknown for others.
 Dimension fe_dimension(std::string_view variable);
 
-/// Warns about each channel whose size no vehicle crash has in SI units: the deck used others.
-void warn_when_implausible(TraceSet& set);
+/// Warns when numbers show that the deck used other units than those they were converted by: vertical accelerations
+/// start at a power of ten times gravity, or a channel has a size that no vehicle crash has.
+/// @param system what the samples were converted by; columns that say their own unit are not judged by it.
+void warn_when_implausible(TraceSet& set, const UnitSystem& system = {});
 
 }  // namespace crashsim::io

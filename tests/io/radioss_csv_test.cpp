@@ -25,7 +25,8 @@ std::string converted() {
   const auto add = [&](const std::string& name) { names += fmt::format(",\"{}\"", name); };
   for (int i = 0; i < 6; ++i) add(fmt::format("TH RWALL      1 Barrier      var {}", 6 + i));
   for (int i = 0; i < 9; ++i) add(fmt::format("outputblock1      250 LEFT_REAR      var {}", 12 + i));
-  for (int column = 2; column <= 21; ++column)
+  add("part2      MASS ");
+  for (int column = 2; column <= 22; ++column)
     for (int row = 0; row < 2; ++row) rows[row] += fmt::format(",{}", column * row);
   return fmt::format("{}\n{}\n{}\n", names, rows[0], rows[1]);
 }
@@ -38,7 +39,7 @@ TEST(RadiossCsv, NumberedVariablesAreNamedByTheirOrder) {
   const test::TempDir dir;
   const TraceSet set = read_traces(dir.file("t.csv", converted()), {.channels = {}, .columns = "", .units = "t-mm-s"});
   EXPECT_EQ(set.format, "radioss_csv");
-  ASSERT_EQ(set.traces.size(), 20u);
+  ASSERT_EQ(set.traces.size(), 21u);
   const Trace& wall = named(set, "Barrier_FTX");
   EXPECT_EQ(wall.id, "10");
   EXPECT_EQ(wall.dimension, Dimension::impulse) << "cumulative, as the run writes it";
@@ -52,6 +53,7 @@ TEST(RadiossCsv, NumberedVariablesAreNamedByTheirOrder) {
   EXPECT_THAT(named(set, "KINETIC ENERGY").values, ElementsAre(0, DoubleEq(0.003)));
   EXPECT_EQ(named(set, "part1_KE").dimension, Dimension::energy);
   EXPECT_THAT(named(set, "MASS").values, ElementsAre(0, DoubleEq(5000.0)));
+  EXPECT_THAT(named(set, "part2_MASS").values, ElementsAre(0, DoubleEq(22000.0)));
 }
 
 TEST(RadiossCsv, VariablesNamedByTheRunsTitlesHaveForcesAlready) {
@@ -92,6 +94,39 @@ TEST(RadiossCsv, SizesThatNoVehicleHasInSiAreSaid) {
               ElementsAre(HasSubstr("channel N1_VX reaches 11111 m/s, too much for a vehicle: are its units not SI?")));
   EXPECT_THAT(warnings("0,0,-11.1,0\n150,-1,-11,0\n", ""), ElementsAre(HasSubstr("lasts 150 s, too long for a crash")));
   EXPECT_THAT(warnings("0,0,-11111,0\n1,-1,-11000,0\n", "t-mm-s"), IsEmpty());
+}
+
+TEST(RadiossCsv, SizesAreJudgedAlsoInUnitsThatWereGiven) {
+  const test::TempDir dir;
+  const std::string path = dir.file("t.csv", "time,N1_DX,N1_VX,N1_AX\n0,0,-11.1,0\n0.1,-1,-11,0\n");
+  EXPECT_THAT(read_traces(path, {.channels = {}, .columns = "", .units = "kg-mm-ms"}).warnings, IsEmpty());
+  EXPECT_THAT(read_traces(dir.file("t.csv", "time,N1_DX,N1_VX,N1_AX\n0,0,-11111,0\n1,-1,-11000,0\n"),
+                          {.channels = {}, .columns = "", .units = "g-mm-ms"})
+                  .warnings,
+              ElementsAre(HasSubstr("channel N1_VX reaches 11111 m/s, too much for a vehicle: are its units not "
+                                    "g-mm-ms? say others, for example units = kg-m-s")));
+}
+
+TEST(RadiossCsv, GravityTellsTheUnitsWhateverWasSaid) {
+  const test::TempDir dir;
+  const auto warnings = [&](const std::string& accelerations, const std::string& units) {
+    return read_traces(dir.file("t.csv", "time,A_VX,A_AZ,B_AZ,C_AZ,A_AX\n0,0," + accelerations + "\n1,0,1,1,1,0\n"),
+                       {.channels = {}, .columns = "", .units = units})
+        .warnings;
+  };
+  EXPECT_THAT(warnings("-9810,-9810,3,0", ""),
+              ElementsAre(HasSubstr("vertical accelerations start at -9810 m/s^2, which is gravity in other units than "
+                                    "kg-m-s: it is 9.81 m/s^2 with units = t-mm-s")));
+  EXPECT_THAT(warnings("-9810,-9810,3,0", "kg-mm-ms"),
+              ElementsAre(HasSubstr("start at -9.81e+06 m/s^2, which is gravity in other units than kg-mm-ms: it is "
+                                    "9.81 m/s^2 with units = t-mm-s")));
+  EXPECT_THAT(warnings("9.80665e-3,9.80665e-3,9.80665e-3,0", "t-mm-s"),
+              ElementsAre(HasSubstr("it is 9.81 m/s^2 with units = kg-mm-ms or g-mm-ms")));
+  EXPECT_THAT(warnings("98.1,98.1,98.1,0", "kg-m-s"), ElementsAre(HasSubstr("no system known makes it 9.81 m/s^2")));
+  for (const char* none :
+       {"-9.81,-9.81,-9.81,0", "0,0,0,-9810", "-9810,0,0,0", "-9810,-98.1,-0.981,0", "-9310,-9310,-9310,0", ",,,-9810"})
+    EXPECT_THAT(warnings(none, ""), IsEmpty()) << none;
+  EXPECT_THAT(warnings("-9810,-9810,-9810,0", "t-mm-s"), IsEmpty());
 }
 
 TEST(RadiossCsv, AnUnknownSystemOfUnitsIsRefused) {
