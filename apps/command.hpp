@@ -124,6 +124,7 @@ std::unique_ptr<Command> make_pitch(CLI::App& app);
 std::unique_ptr<Command> make_compare(CLI::App& app);
 std::unique_ptr<Command> make_run(CLI::App& app);
 std::unique_ptr<Command> make_design(CLI::App& app);
+std::unique_ptr<Command> make_export(CLI::App& app);
 std::unique_ptr<Command> make_schema(CLI::App& app);
 
 }  // namespace crashsim::cli

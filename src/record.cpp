@@ -17,14 +17,14 @@ namespace crashsim {
 namespace {
 
 constexpr std::string_view kFormat = "crashsim.record";
-constexpr std::string_view kCommentMark = "# record = ";
+constexpr std::string_view kRecordMark = " record = ";
 
-/// The JSON of a record inside the text of an output; empty when there is none.
-std::string_view record_in_csv(std::string_view text) {
-  for (std::size_t at = 0; at < text.size() && text[at] == '#';) {
+/// The JSON of a record in the comments before a table or, marked by `$`, before cards; empty when there is none.
+std::string_view record_in_comments(std::string_view text) {
+  for (std::size_t at = 0; at < text.size() && (text[at] == '#' || text[at] == '$');) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = text.substr(at, end - at);
-    if (line.starts_with(kCommentMark)) return line.substr(kCommentMark.size());
+    if (line.substr(1).starts_with(kRecordMark)) return line.substr(1 + kRecordMark.size());
     at = end + 1;
   }
   return {};
@@ -91,7 +91,8 @@ std::string to_json(const Record& record) { return format_json_line(record_json(
 
 std::optional<Record> find_record(const std::string& path) {
   const std::string text = read_file(path);
-  if (const std::string_view line = record_in_csv(text); !line.empty()) return from_json(parse_json(line, path), path);
+  if (const std::string_view line = record_in_comments(text); !line.empty())
+    return from_json(parse_json(line, path), path);
   if (!trimmed(text).starts_with('{')) return std::nullopt;
   const Json json = parse_json(text, path);
   const Json& record = json.contains("record") ? json["record"] : json;

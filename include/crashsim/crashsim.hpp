@@ -12,6 +12,7 @@
 #include <crashsim/design_case.hpp>
 #include <crashsim/design_options.hpp>
 #include <crashsim/error.hpp>
+#include <crashsim/export.hpp>
 #include <crashsim/files.hpp>
 #include <crashsim/forcing.hpp>
 #include <crashsim/heave_pitch_model.hpp>

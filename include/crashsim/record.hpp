@@ -36,7 +36,8 @@ Record make_record(std::string command, std::vector<std::string> arguments, std:
 std::string to_json(const Record& record);
 
 /// The record in a file: a `case.lock.json`, the member `record` of a JSON output or the comment `# record = ..` of a
-/// CSV output; empty when there is none. @throws InvalidInput when the file is missing or its record is damaged.
+/// CSV output (`$` before the cards of LS-DYNA); empty when there is none. @throws InvalidInput when the file is
+/// missing or its record is damaged.
 std::optional<Record> find_record(const std::string& path);
 
 /// @throws InvalidInput naming the first input that is gone or has changed since.

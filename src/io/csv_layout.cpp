@@ -128,6 +128,7 @@ struct TextLine {
   std::size_t number;
 };
 
+/// Cells of a header; none when they do not fit the numbers.
 std::vector<std::string> header_cells(const TextLine& line, const CsvLayout& layout) {
   auto cells = split_cells(line.text, layout.separator);
   while (cells.size() > layout.columns && cells.back().empty()) cells.pop_back();
@@ -156,6 +157,8 @@ void find_header(const std::vector<TextLine>& before, std::string_view last_comm
   layout.names = header_cells(before.back(), layout);
   if (layout.names.empty()) {
     layout.odd_line = before.back().number;
+    const auto cells = split_cells(before.back().text, layout.separator);
+    layout.odd_names.assign(cells.begin(), cells.end());
     return;
   }
   if (before.size() < 2 || !are_units(layout.names)) return;

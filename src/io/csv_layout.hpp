@@ -18,9 +18,10 @@ struct CsvLayout {
   std::vector<std::string> names;  ///< Header cells, unquoted; empty when there is no header that fits.
   std::vector<std::string> units;  ///< Cells of a row of units under the header, unbracketed, if there is one.
   std::vector<std::pair<std::string, std::string>> comments;  ///< `# key = value` lines.
-  std::size_t odd_line = 0;     ///< Line just before the numbers that fits no header (its number), 0 when none.
-  std::size_t data_offset = 0;  ///< Where the first row of numbers starts in the text.
-  std::size_t data_line = 0;    ///< Its line number, from 1.
+  std::size_t odd_line = 0;            ///< Line just before the numbers that fits no header (its number), 0 when none.
+  std::vector<std::string> odd_names;  ///< Its cells.
+  std::size_t data_offset = 0;         ///< Where the first row of numbers starts in the text.
+  std::size_t data_line = 0;           ///< Its line number, from 1.
 };
 
 /// Finds the first row of at least two numbers and what stands before it; empty when there is none within the first

@@ -20,6 +20,7 @@ namespace crashsim::io {
 namespace {
 
 constexpr std::size_t kVariablesOfNodes = 9, kVariablesOfWalls = 6;  // DX .. AZ and FNX .. FTZ, as decks ask for them
+constexpr std::ptrdiff_t kLeastGlobals = 12;  // INTERNAL ENERGY .. HOURGLASS ENERGY, of all versions
 constexpr std::string_view kNumbered = " var ";
 
 /// What a column holds.
@@ -114,10 +115,34 @@ bool is_radioss(const CsvLayout& layout) {
   return std::count_if(heads.begin(), heads.end(), is_motion) >= 3;
 }
 
+/// Some versions of the converter name fewer or more global variables than they write. What follows them is right, and
+/// they are the first of a list, so the number of columns tells which they are.
+void mend_global_names(CsvLayout& layout) {
+  const std::vector<std::string>& odd = layout.odd_names;
+  if (!layout.names.empty() || odd.size() < 4 || odd[0] != "time" || odd[1] != "INTERNAL ENERGY" ||
+      odd[2] != "KINETIC ENERGY")
+    return;
+  const auto is_global = [](const std::string& name) {
+    for (int code = 1; !radioss_global_variable(code).name.empty(); ++code)
+      if (name == radioss_global_variable(code).name) return true;
+    return name.empty() || name == "NO NAME";
+  };
+  const auto others = std::find_if_not(odd.begin() + 1, odd.end(), is_global);
+  const auto globals = static_cast<std::ptrdiff_t>(layout.columns) - 1 - (odd.end() - others);
+  if (globals < kLeastGlobals) return;
+  layout.names = {odd[0]};
+  for (int code = 1; code <= globals; ++code) {
+    const std::string_view name = radioss_global_variable(code).name;
+    layout.names.push_back(name.empty() ? fmt::format("var{}", code) : std::string(name));
+  }
+  layout.names.insert(layout.names.end(), others, odd.end());
+}
+
 /// The header where it is one of OpenRadioss.
 std::optional<CsvLayout> radioss_layout(const InputFile& file) {
   if (file.is_folder()) return std::nullopt;
   auto layout = find_layout(file.bytes());
+  if (layout) mend_global_names(*layout);
   return layout && is_radioss(*layout) ? std::move(layout) : std::nullopt;
 }
 

@@ -84,6 +84,34 @@ TEST(RadiossCsv, HeadersThatSayTheirUnitsNeedNoSystem) {
   EXPECT_THAT(set.warnings, IsEmpty());
 }
 
+TEST(RadiossCsv, GlobalVariablesThatTheConverterMiscountsAreMended) {
+  const test::TempDir dir;
+  std::string names = "\"time\",";
+  for (const char* name :
+       {"INTERNAL ENERGY", "KINETIC ENERGY", "X-MOMENTUM", "Y-MOMENTUM", "Z-MOMENTUM", "MASS", "TIME STEP",
+        "ROTATION ENERGY", "EXTERNAL WORK", "SPRING ENERGY", "CONTACT ENERGY", "HOURGLASS ENERGY"})
+    names += fmt::format("\"{}\",", name);
+  const auto read = [&](const std::string& more_names, int columns) {
+    std::string rows[2] = {"0", "1"};
+    for (int column = 2; column <= columns; ++column)
+      for (int row = 0; row < 2; ++row) rows[row] += fmt::format(",{}", column * row);
+    const std::string text = names + more_names + "\"part1      KE \"\n" + rows[0] + "\n" + rows[1] + "\n";
+    return read_traces(dir.file("t.csv", text));
+  };
+  const TraceSet too_few = read("", 18);  // sixteen written, twelve named
+  ASSERT_EQ(too_few.traces.size(), 17u);
+  EXPECT_EQ(named(too_few, "PLASTIC WORK").values.back(), 17.0);
+  EXPECT_EQ(named(too_few, "part1_KE").values.back(), 18.0);
+  const TraceSet too_many = read(
+      "\"ELASTIC CONTACT ENERGY\",\"FRICTIONAL CONTACT ENERGY\",\"DAMPING CONTACT ENERGY \",\"PLASTIC WORK\",\"ADDED "
+      "MASS\",\"PLASTIC WORK\",",
+      19);  // one of them twice
+  ASSERT_EQ(too_many.traces.size(), 18u);
+  EXPECT_EQ(named(too_many, "ADDED MASS").values.back(), 18.0);
+  EXPECT_EQ(named(too_many, "part1_KE").values.back(), 19.0);
+  EXPECT_THROW(read("", 12), InvalidInput) << "a column of the parts is missing";
+}
+
 TEST(RadiossCsv, SizesThatNoVehicleHasInSiAreSaid) {
   const test::TempDir dir;
   const std::string header = "time,N1_DX,N1_VX,N1_AX\n";
