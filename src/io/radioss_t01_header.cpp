@@ -247,9 +247,9 @@ class Parser {
 bool is_radioss_t01(std::string_view bytes) {
   constexpr std::size_t kDate = kTitleRecord + 2 * kWord;
   if (bytes.size() < kDate + kWord) return false;
-  return big_endian_word(bytes.data()) == kTitleRecord &&
-         big_endian_word(bytes.data() + kDate - kWord) == kTitleRecord &&
-         big_endian_word(bytes.data() + kDate) == kDateRecord;
+  const char* const start = bytes.data();
+  return big_endian_word(start) == kTitleRecord && big_endian_word(start + kDate - kWord) == kTitleRecord &&
+         big_endian_word(start + kDate) == kDateRecord;
 }
 
 RadiossT01Header read_radioss_t01_header(std::string_view bytes, const std::string& path) {
