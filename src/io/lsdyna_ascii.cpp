@@ -73,7 +73,7 @@ TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& c
                                    {"date", input.header.date}})
     if (!value.empty()) set.metadata.emplace_back(key, value);
   found->database->read(input, set, choose);
-  if (options.units.empty()) warn_when_implausible(set);
+  warn_when_implausible(set, input.units);
   return set;
 }
 

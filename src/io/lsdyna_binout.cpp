@@ -225,7 +225,7 @@ TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& c
     while (end < chosen.size() && series_of(end) == series_of(begin)) ++end;
     read_series(std::span(chosen).subspan(begin, end - begin), system, run);
   }
-  if (options.units.empty()) warn_when_implausible(run.set);
+  warn_when_implausible(run.set, system);
   return std::move(run.set);
 }
 
