@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -58,14 +60,17 @@ std::vector<Database> databases_of(const TraceFileInfo& info) {
 /// Keys in the file's order; a repeated one has its values in a list.
 Json metadata_json(const TraceSet& set) {
   Json json = Json::object();
+  auto& members = json.get_ref<Json::object_t&>();  // whose own search for a key is linear
+  std::unordered_map<std::string_view, std::size_t> places;
   for (const auto& [key, value] : set.metadata) {
-    Json& entry = json[key];
-    if (entry.is_null())
-      entry = value;
-    else if (entry.is_array())
-      entry.push_back(value);
-    else
-      entry = Json::array({entry, value});
+    const auto [place, is_new] = places.emplace(key, members.size());
+    if (is_new) {
+      members.emplace_back(key, value);
+      continue;
+    }
+    Json& entry = members[place->second].second;
+    if (!entry.is_array()) entry = Json::array({entry});
+    entry.push_back(value);
   }
   return json;
 }

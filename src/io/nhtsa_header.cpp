@@ -1,6 +1,8 @@
 #include "io/nhtsa_header.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -17,7 +19,7 @@ constexpr double kKmh = 1.0 / 3.6;
 
 /// Positions of fields in their records.
 namespace test {
-constexpr std::size_t kTitle = 1, kClosingSpeed = 14, kImpactAngle = 15, kOffset = 16;
+constexpr std::size_t kTitle = 1, kClosingSpeed = 14, kImpactAngle = 15, kOffset = 16, kChannels = 18;
 }
 namespace vehicle {
 constexpr std::size_t kNumber = 0, kTestMass = 10, kSpeed = 41, kFields = 81;
@@ -97,6 +99,24 @@ NhtsaChannel parse_channel(const Record& r) {
   return c;
 }
 
+/// The axis that a comment ends with, as in "BARRIER K-01 Mz" or "DRIVER HEAD XR"; ' ' when it ends otherwise.
+char axis_in_words(std::string_view comment) {
+  std::string word = to_lower(comment.substr(comment.find_last_of(' ') + 1));
+  if (word.size() > 1 && word.back() == 'r') word.pop_back();  // redundant
+  if (word.size() == 2 && (word.front() == 'f' || word.front() == 'm')) word.erase(0, 1);
+  return word.size() == 1 && word.front() >= 'x' && word.front() <= 'z' ? word.front() : ' ';
+}
+
+/// Real headers label some channels with the axis of their neighbour.
+void warn_of_wrong_axis(const NhtsaChannel& c, const std::string& where, NhtsaHeader& header) {
+  const char said = axis_in_words(c.comment);
+  if (said == ' ' || c.axis.empty() || lower(c.axis.front()) == said || lower(c.axis.front()) < 'x' ||
+      lower(c.axis.front()) > 'z')
+    return;
+  header.warnings.push_back(fmt::format("{}: channel {} '{}' has AXIS {}: one of them is wrong, AXIS is used", where,
+                                        c.curve, c.comment, c.axis));
+}
+
 void parse_test(const Record& r, NhtsaHeader& header) {
   if (!header.title.empty()) return;
   header.title = r.text(test::kTitle);
@@ -104,6 +124,34 @@ void parse_test(const Record& r, NhtsaHeader& header) {
   const double angle_deg = r.number(test::kImpactAngle, "IMPANG"), offset_mm = r.number(test::kOffset, "OFFSET");
   if (!std::isnan(angle_deg)) header.impact_angle_deg = angle_deg;
   if (!std::isnan(offset_mm)) header.offset_mm = offset_mm;
+  if (const auto channels = parse_number(r.text(test::kChannels)); channels && *channels >= 0.0 && *channels < 1e9)
+    header.declared_channels = static_cast<long>(*channels);
+}
+
+void parse_record(std::string_view section, const Record& record, NhtsaHeader& header) {
+  if (section == "TEST") parse_test(record, header);
+  if (section == "VEHICLE") header.vehicles.push_back(parse_vehicle(record));
+  if (section == "BARRIER") header.barrier_rigidity = record.text(barrier::kRigidity);
+  if (section == "INSTRUMENTATION") {
+    header.channels.push_back(parse_channel(record));
+    warn_of_wrong_axis(header.channels.back(), record.where, header);
+  }
+  append_nhtsa_fields(section, record.fields, header.metadata);
+}
+
+/// The name between the dashes of "----- TEST -----".
+std::string_view section_name(std::string_view line) {
+  line.remove_prefix(kSectionMark.size());
+  return trimmed(line.substr(0, line.find('-')));
+}
+
+void warn_of_what_is_missing(bool has_end, const std::string& path, NhtsaHeader& header) {
+  if (!has_end)
+    header.warnings.push_back(fmt::format("{}: the header is cut short: its END is missing, {} channels are known",
+                                          path, header.channels.size()));
+  if (header.declared_channels >= 0 && header.declared_channels != std::ssize(header.channels))
+    header.warnings.push_back(fmt::format("{}: TOTCRV promises {} channels, the header describes {}", path,
+                                          header.declared_channels, header.channels.size()));
 }
 
 }  // namespace
@@ -116,24 +164,26 @@ bool is_nhtsa_header(std::string_view text) {
 NhtsaHeader parse_nhtsa_header(std::string_view text, const std::string& path) {
   NhtsaHeader header;
   std::string_view section;
-  std::size_t line_number = 0;
-  for (const std::string_view raw : split(text, '\n')) {
-    ++line_number;
-    const std::string_view line = trimmed(raw);
+  bool has_end = false;
+  std::size_t number = 1;
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1, ++number) {
+    end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = trimmed(text.substr(at, end - at));
     if (line.empty() || line.starts_with('#')) continue;
     if (line.starts_with(kSectionMark)) {
-      section = line.substr(kSectionMark.size());
-      section = trimmed(section.substr(0, section.find('-')));
+      section = section_name(line);
+      has_end = has_end || section == "END";
       continue;
     }
-    const Record record{split(line, '|'), fmt::format("{}:{}", path, line_number)};
-    if (section == "TEST") parse_test(record, header);
-    if (section == "VEHICLE") header.vehicles.push_back(parse_vehicle(record));
-    if (section == "BARRIER") header.barrier_rigidity = record.text(barrier::kRigidity);
-    if (section == "INSTRUMENTATION") header.channels.push_back(parse_channel(record));
+    if (end == text.size()) {
+      header.warnings.push_back(fmt::format("{}:{}: the last record is cut short: left out", path, number));
+      continue;
+    }
+    parse_record(section, {split(line, '|'), fmt::format("{}:{}", path, number)}, header);
   }
   if (header.channels.empty())
     throw InvalidInput(fmt::format("{}: no INSTRUMENTATION records: the header is truncated", path));
+  warn_of_what_is_missing(has_end, path, header);
   return header;
 }
 

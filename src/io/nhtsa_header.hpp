@@ -8,6 +8,8 @@
 
 #include <crashsim/error.hpp>
 
+#include "io/nhtsa_fields.hpp"
+
 namespace crashsim::io {
 
 struct NhtsaVehicle {
@@ -31,13 +33,17 @@ struct NhtsaHeader {
   std::string title;
   double closing_speed_mps = kUnset, impact_angle_deg = 0.0, offset_mm = 0.0;  ///< CLSSPD IMPANG OFFSET.
   std::string barrier_rigidity;                                                ///< BARRIG: R rigid, D deformable.
+  long declared_channels = -1;                                                 ///< TOTCRV; -1 when it is not filled in.
   std::vector<NhtsaVehicle> vehicles;
   std::vector<NhtsaChannel> channels;
+  Metadata metadata;                  ///< Every filled field: {"VEHICLE[1].MODEL", "03"}.
+  std::vector<std::string> warnings;  ///< What is odd in it, with path and line.
 };
 
 /// Whether a text starts as such a header does.
 bool is_nhtsa_header(std::string_view text);
 
+/// A header that lacks its end is read as far as its lines are whole.
 /// @throws InvalidInput with path and line when a record lacks its essential fields or a number is none, and with path
 ///         when there are no channels.
 NhtsaHeader parse_nhtsa_header(std::string_view text, const std::string& path);

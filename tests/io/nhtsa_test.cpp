@@ -48,7 +48,7 @@ TEST(Nhtsa, HeaderTellsMassSpeedAndMeaningOfChannels) {
 
 TEST(Nhtsa, OneValueALineTakesItsTimesFromTheHeader) {
   const test::TempDir dir;
-  dir.file("v01.001", "1\r\n2\r\n3\r\n4\r\n5");
+  dir.file("v01.001", "1.0\r\n2.0\r\n3.0\r\n4.0\r\n5.0");
   const TraceSet set =
       read_traces(dir.file("v01.ev5", header_text({{.unit = "MM", .first = "-1", .last = "3", .step = "80"}})));
   EXPECT_THAT(*set.traces[0].time_s, ElementsAre(-8e-5, 0.0, 8e-5, 16e-5, 24e-5));
@@ -222,6 +222,8 @@ TEST(Nhtsa, ATruncatedHeaderIsRefused) {
   EXPECT_THAT([&] { read_traces(dir.file("v01.EV5", text.substr(0, text.find("----- INSTR")))); },
               ThrowsMessage<InvalidInput>(HasSubstr("v01.EV5: no INSTRUMENTATION records: the header is truncated")));
   EXPECT_THAT([&] { read_traces(dir.file("v01.EV5", text.substr(0, text.find("|ACME")))); },
+              ThrowsMessage<InvalidInput>(HasSubstr("no INSTRUMENTATION records")));
+  EXPECT_THAT([&] { read_traces(dir.file("v01.EV5", text.substr(0, text.find("|ACME")) + "\n----- END -----\n")); },
               ThrowsMessage<InvalidInput>(HasSubstr("9 fields in an INSTRUMENTATION record: 20 are expected")));
 }
 

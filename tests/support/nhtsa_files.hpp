@@ -17,13 +17,13 @@ struct NhtsaRecord {
   int vehicle = 1;
   std::string sensor = "AC", occupant = "NA", axis = "XG", unit = "G'S";
   std::string first = "-2", last = "2", step = "100", data_status = "AM", channel_status = "P";
-  std::string initial_speed = "50";
+  std::string initial_speed = "50", range = "800";
 };
 
 inline std::string record_line(const NhtsaRecord& r) {
-  return fmt::format("{}|{}|{}|{}|{}|{}|SEC|{}|2800|ACME|01/JAN/2020|800|10|{}|{}|{}|{}|{}|{}|{}\n", r.vehicle, r.curve,
-                     r.sensor, r.occupant, r.attachment, r.axis, r.unit, r.initial_speed, r.first, r.last, r.step,
-                     r.data_status, r.channel_status, r.comment);
+  return fmt::format("{}|{}|{}|{}|{}|{}|SEC|{}|2800|ACME|01/JAN/2020|{}|10|{}|{}|{}|{}|{}|{}|{}\n", r.vehicle, r.curve,
+                     r.sensor, r.occupant, r.attachment, r.axis, r.unit, r.range, r.initial_speed, r.first, r.last,
+                     r.step, r.data_status, r.channel_status, r.comment);
 }
 
 inline std::string vehicle_line(int number = 1, const std::string& mass = "1500", const std::string& speed = "57.6") {
@@ -41,10 +41,36 @@ inline std::string header_text(const std::vector<NhtsaRecord>& records, const st
                                const std::string& barrier = "R|LCB|0|0|WALL",
                                const std::string& angle_and_offset = "0|0") {
   std::string text = "# a comment\n----- EV5 -----\n----- TEST -----\n";
-  text += fmt::format("V5|SMALL CAR|OBJ|01/JAN/2020|LAB|1|2|NCA|VTB|CON|DRY|22|OTH|OTH|60|{}|0|1|\n", angle_and_offset);
+  text += fmt::format("V5|SMALL CAR|OBJ|01/JAN/2020|LAB|1|2|NCA|VTB|CON|DRY|22|OTH|OTH|60|{}|0|{}|\n", angle_and_offset,
+                      records.size());
   text += "----- VEHICLE -----\n" + vehicles + "----- BARRIER -----\n" + barrier + "\n----- INSTRUMENTATION -----\n";
   for (const NhtsaRecord& r : records) text += record_line(r);
   return text + "----- END -----";
+}
+
+/// The rows of a channel file with the clock of a record: value(t) over time.
+template <class Value>
+std::string sample_rows(const NhtsaRecord& r, Value value) {
+  std::string text;
+  for (int i = std::stoi(r.first); i <= std::stoi(r.last); ++i) {
+    const double t = i * std::stod(r.step) / 1e6;
+    text += fmt::format("{:.6f}\t{:.9f}\n", t, value(t));
+  }
+  return text;
+}
+
+/// The record of one cell of a load-cell wall: sampled every 1 ms from -20 to 200 ms.
+inline NhtsaRecord cell_record(int curve, const std::string& attachment, const std::string& comment) {
+  return {.curve = curve,
+          .attachment = attachment,
+          .comment = comment,
+          .vehicle = 0,
+          .sensor = "LC",
+          .unit = "NWT",
+          .first = "-20",
+          .last = "200",
+          .step = "1000",
+          .range = "300000"};
 }
 
 inline constexpr const char* kFiveSamples =
