@@ -35,6 +35,7 @@ extern const Reader kNhtsaReader;
 extern const Reader kLsdynaBinoutReader;
 extern const Reader kLsdynaAsciiReader;
 extern const Reader kRadiossT01Reader;
+extern const Reader kNhtsaUdsReader;
 extern const Reader kRadiossCsvReader;
 extern const Reader kCsvReader;
 
