@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <crashsim/redundancy.hpp>
 #include <crashsim/trace_io.hpp>
 #include <crashsim/units.hpp>
 
@@ -177,6 +178,8 @@ Pulse make_pulse(const TraceSet& traces, const PulseOptions& options) {
   pulse.impact_speed_mps = average.impact_speed_mps;
   pulse.steps = std::move(channels.steps);
   pulse.warnings.insert(pulse.warnings.end(), channels.warnings.begin(), channels.warnings.end());
+  const std::vector<std::string> findings = check_redundant(traces);
+  pulse.warnings.insert(pulse.warnings.end(), findings.begin(), findings.end());
   cut_at_time_zero(channels, average.accel_mps2, t0_s, pulse);
   integrate_motion(pulse);
   find_end_of_crush(pulse);

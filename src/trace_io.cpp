@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <crashsim/redundancy.hpp>
 #include <crashsim/signal.hpp>
 
 #include "io/reader.hpp"
@@ -112,10 +113,13 @@ TraceSet read_traces(const std::string& path, const ReadOptions& options) {
 
 TraceFileInfo inspect_traces(const std::string& path, const ReadOptions& options) {
   std::vector<std::size_t> chosen;
-  TraceFileInfo info{
-      io::read_chosen(path, options,
-                      [&](const TraceSet& catalogue) { return chosen = io::channels_named_by(options, catalogue); }),
-      {}};
+  TraceFileInfo info{io::read_chosen(path, options,
+                                     [&](const TraceSet& catalogue) {
+                                       return chosen = io::channels_named_by(options, catalogue);
+                                     }),
+                     {}};
+  const std::vector<std::string> findings = check_redundant(info.set);
+  info.set.warnings.insert(info.set.warnings.end(), findings.begin(), findings.end());
   for (const std::size_t i : chosen) info.channels.push_back(describe(info.set.traces[i]));
   info.set.traces.clear();
   return info;

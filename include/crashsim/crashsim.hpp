@@ -33,6 +33,7 @@
 #include <crashsim/pulse.hpp>
 #include <crashsim/rating.hpp>
 #include <crashsim/record.hpp>
+#include <crashsim/redundancy.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>

@@ -48,11 +48,13 @@ const std::map<std::string, Layer> kLayers = {
 
     {"body_motion", signals},
     {"channel_choice", signals},
+    {"channel_fields", signals},
     {"measured_motion", signals},
     {"io/", signals},
     {"pulse", signals},
     {"pulse_channels", signals},
     {"pulse_steps", signals},
+    {"redundancy", signals},
     {"signal", signals},
     {"trace", signals},
     {"trace_io", signals},
