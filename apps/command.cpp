@@ -26,6 +26,7 @@ struct Shown {
 constexpr Shown kShown[] = {
     // the longest suffix first
     {"_ns_per_m", 1e-3, "kN s/m"},
+    {"_ns", 1.0, "N s"},
     {"_n_per_m", 1e-3, "kN/m"},
     {"_rad_per_m", 1.0, "rad/m"},
     {"_kgm2", 1.0, "kg m^2"},

@@ -13,12 +13,12 @@
 #include <crashsim/trace_io.hpp>
 
 #include "channel_choice.hpp"
+#include "force_rows.hpp"
 
 namespace crashsim {
 namespace {
 
 constexpr double kImpulseCfc = 60.0;  // SAE J211: barrier forces
-constexpr double kClearForce = 0.05;  // of the largest: below it the height of a force says nothing
 
 using Names = std::vector<std::string>;
 
@@ -82,50 +82,8 @@ class Source {
   MeasuredForcing& out_;
 };
 
-/// Adds b to a. @throws InvalidInput naming `what` when they are not on one clock.
-void add(TimeSeries& a, const TimeSeries& b, double weight, const std::string& what) {
-  if (a.empty()) {
-    a = {b.time_s, std::vector<double>(b.values.size(), 0.0)};
-  } else if (a.time_s != b.time_s) {
-    throw InvalidInput(
-        fmt::format("{}: has other times than the channels before it: only channels of one clock add up", what));
-  }
-  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] += weight * b.values[i];
-}
-
-double impulse_of(const TimeSeries& force) { return integrate(force.time_s, force.values, 0.0).back(); }
-
 void turn(TimeSeries& force) {
   for (double& value : force.values) value = -value;
-}
-
-/// Sum of forces, and of forces times heights.
-struct Rows {
-  TimeSeries force, moment;
-};
-
-/// Height of the force where it is clear of noise, held between.
-TimeSeries height_of(const Rows& rows, const std::vector<double>& heights, const std::string& path,
-                     std::vector<std::string>& warnings) {
-  const double largest = *std::max_element(rows.force.values.begin(), rows.force.values.end());
-  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
-  TimeSeries height;
-  for (std::size_t i = 0; i < rows.force.values.size(); ++i) {
-    if (!(rows.force.values[i] > kClearForce * largest)) continue;
-    height.time_s.push_back(rows.force.time_s[i]);
-    height.values.push_back(rows.moment.values[i] / rows.force.values[i]);
-  }
-  if (height.values.size() < 2)
-    throw InvalidInput(
-        fmt::format("{}: the longitudinal channels add up to no force whose height could be told", path));
-  const auto outside = std::count_if(height.values.begin(), height.values.end(),
-                                     [low = *lowest, high = *highest](double h) { return h < low || h > high; });
-  if (outside > 0)
-    warnings.push_back(
-        fmt::format("{}: the height of the force lies outside the rows, {:g} to {:g} m, in {} of {} samples: "
-                    "some rows pull",
-                    path, *lowest, *highest, outside, height.values.size()));
-  return height;
 }
 
 void set_longitudinal(const Source& source, const std::vector<const Trace*>& channels, const ForcingOptions& options,
@@ -138,17 +96,13 @@ void set_longitudinal(const Source& source, const std::vector<const Trace*>& cha
   if (!heights.empty() && heights.size() != channels.size())
     throw InvalidInput(fmt::format("{}: row_heights_m has {} heights for {} longitudinal channels: one each is needed",
                                    path, heights.size(), channels.size()));
-  Rows rows;
+  ForceRows rows;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const TimeSeries force = source.force(*channels[i]);
-    add(rows.force, force, 1.0, source.what(*channels[i]));
-    if (!heights.empty()) add(rows.moment, force, heights[i], source.what(*channels[i]));
+    add_force(rows.force, force, 1.0, source.what(*channels[i]));
+    if (!heights.empty()) add_force(rows.moment, force, heights[i], source.what(*channels[i]));
   }
-  if (impulse_of(rows.force) < 0.0) {
-    turn(rows.force);
-    turn(rows.moment);
-    out.steps.emplace_back("longitudinal force: sign turned, so that it stops the vehicle");
-  }
+  if (turn_to_stop(rows)) out.steps.emplace_back("longitudinal force: sign turned, so that it stops the vehicle");
   if (!heights.empty()) out.forcing.force_height_m = height_of(rows, heights, path, out.warnings);
   out.forcing.longitudinal_force_n = std::move(rows.force);
 }
@@ -160,7 +114,7 @@ double end_of_velocity(const Source& source, const std::vector<const Trace*>& ch
     if (channel->dimension != Dimension::speed)
       throw InvalidInput(fmt::format("{}: measures {}; a velocity is needed", source.what(*channel),
                                      dimension_name(channel->dimension)));
-    add(sum, {{channel->times().begin(), channel->times().end()}, channel->values}, 1.0, source.what(*channel));
+    add_force(sum, {{channel->times().begin(), channel->times().end()}, channel->values}, 1.0, source.what(*channel));
   }
   if (sum.values.front() < 0.0) turn(sum);
   return find_max_crush(sum.time_s, differentiate(sum.time_s, sum.values), sum.values,
@@ -217,10 +171,11 @@ MeasuredForcing read_forcing(const ForcingOptions& options) {
   const Source source(set, options, out);
   const bool is_default = options.vertical_channels.empty() && options.longitudinal_channels.empty();
   Names along = or_own(options.longitudinal_channels, is_default, source, {"longitudinal_force_n"});
+  if (along.empty()) along = or_own({}, is_default, source, {"total_force_n"});
   if (along.empty()) along = or_own({}, is_default, source, {"spring_force_n", "damper_force_n"});
   for (const Trace* trace : source.pick(or_own(options.vertical_channels, is_default, source, {"vertical_force_n"})))
-    add(out.forcing.vertical_force_n, source.force(*trace), options.vertical_sign == VerticalSign::up ? -1.0 : 1.0,
-        source.what(*trace));
+    add_force(out.forcing.vertical_force_n, source.force(*trace),
+              options.vertical_sign == VerticalSign::up ? -1.0 : 1.0, source.what(*trace));
   set_longitudinal(source, source.pick(along), options, path, out);
   if (out.forcing.vertical_force_n.empty() && out.forcing.longitudinal_force_n.empty())
     throw InvalidInput(

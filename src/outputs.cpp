@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include <crashsim/coupled_columns.hpp>
 #include <crashsim/table_io.hpp>
 #include <crashsim/units.hpp>
@@ -70,6 +72,22 @@ std::string format_pulse(const Pulse& pulse, const Record& record) {
                                {"accel_mps2", pulse.accel_mps2},
                                {"velocity_mps", pulse.velocity_mps},
                                {"displacement_m", pulse.displacement_m}});
+}
+
+std::string format_wall(const LoadCellWall& wall, const Record& record) {
+  Comments comments = {{"crashsim", record.version}};
+  for (const WallStrip& row : wall.rows)
+    comments.emplace_back(fmt::format("row_{}_height_m", row.name), format_number(row.height_m));
+  for (const std::string& cell : wall.excluded) comments.emplace_back("left_out", cell);
+  for (const std::string& step : wall.steps) comments.emplace_back("step", step);
+  for (const std::string& warning : wall.warnings) comments.emplace_back("warning", warning);
+  comments.emplace_back("record", to_json(record));
+  std::vector<Column> columns = {
+      {"time_s", wall.time_s}, {"total_force_n", wall.total_force_n}, {"force_height_m", wall.force_height_m}};
+  for (const WallStrip& row : wall.rows) columns.push_back({fmt::format("row_{}_force_n", row.name), row.force_n});
+  for (const WallStrip& column : wall.cell_columns)
+    columns.push_back({fmt::format("column_{}_force_n", column.name), column.force_n});
+  return format_csv(comments, columns);
 }
 
 std::string format_response(const CrushResponse& response, double mass_kg, const Record& record) {

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <crashsim/coupled_columns.hpp>
 #include <crashsim/units.hpp>
 
@@ -105,6 +107,17 @@ Summary summarize(const CrushResponse& response, double mass_kg) {
 Summary summarize(const PitchResponse& response) { return summary_of(response, kPitchNumbers); }
 
 Summary summarize(const CoupledResponse& response) { return summary_of(response, kCoupledNumbers); }
+
+Summary summarize(const LoadCellWall& wall, const WallNumbers& numbers) {
+  std::string excluded;
+  for (const std::string& cell : wall.excluded) excluded += fmt::format("{}{}", excluded.empty() ? "" : "; ", cell);
+  Summary summary = {{"cells", std::int64_t{wall.cells}, "cells added up"},
+                     {"cells_excluded", std::ssize(wall.excluded), "cells left out"},
+                     {"excluded", excluded, "left out"}};
+  for (const auto& number : kWallNumbers)
+    summary.push_back({std::string(number.name), numbers.*number.member, std::string(number.doc)});
+  return summary;
+}
 
 Summary summarize(const Identification& fit) {
   return {{"outcome", std::string(name_of(fit.outcome)), "outcome"},

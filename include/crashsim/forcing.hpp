@@ -66,7 +66,7 @@ struct MeasuredForcing {
 };
 
 /// Forcing from a trace file. Without channels named, those called `vertical_force_n`, `longitudinal_force_n` and
-/// `force_height_m`, or the spring and damper force of a response.csv, are taken.
+/// `force_height_m`, or the total force of a wall.csv, or the spring and damper force of a response.csv, are taken.
 /// @throws InvalidInput naming file and channel when it cannot be read, has no such channel or none to take, or a
 ///         channel is no force, impulse or height.
 MeasuredForcing read_forcing(const ForcingOptions& options);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <crashsim/comparison.hpp>
+#include <crashsim/load_cell_wall.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
 #include <crashsim/simulate.hpp>
@@ -16,6 +17,10 @@ namespace crashsim {
 
 /// pulse.csv: `time_s,accel_mps2,velocity_mps,displacement_m`; mass, speed, channels, steps and warnings as comments.
 std::string format_pulse(const Pulse& pulse, const Record& record);
+
+/// wall.csv: `time_s,total_force_n,force_height_m`, then `row_a_force_n` for each row and `column_01_force_n` for each
+/// column of cells; heights of rows, cells left out, steps and warnings as comments.
+std::string format_wall(const LoadCellWall& wall, const Record& record);
 
 /// response.csv: the same columns, then `spring_force_n,damper_force_n,energy_residual_j`.
 std::string format_response(const CrushResponse& response, double mass_kg, const Record& record);

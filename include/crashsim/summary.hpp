@@ -10,6 +10,7 @@
 #include <crashsim/identify.hpp>
 #include <crashsim/identify_pitch.hpp>
 #include <crashsim/identify_vertical.hpp>
+#include <crashsim/load_cell_wall.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/simulate.hpp>
@@ -42,6 +43,8 @@ Summary summarize(const CrushResponse& response, double mass_kg);
 Summary summarize(const PitchResponse& response);
 /// `outcome`, then the numbers of kCoupledNumbers.
 Summary summarize(const CoupledResponse& response);
+/// Cells used and left out, then the numbers of kWallNumbers.
+Summary summarize(const LoadCellWall& wall, const WallNumbers& numbers);
 /// Outcome, errors, starts and verdict.
 Summary summarize(const Identification& identification);
 /// Outcome, errors, the numbers identified, starts and verdict.

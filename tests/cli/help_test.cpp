@@ -59,7 +59,7 @@ TEST_P(Help, ItsExampleWorksWordForWord) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
-                         testing::Values("info", "pulse", "identify", "simulate", "pitch", "identify-pitch",
+                         testing::Values("info", "pulse", "wall", "identify", "simulate", "pitch", "identify-pitch",
                                          "identify-vertical", "compare", "run", "design", "export", "schema"));
 
 class Program : public testing::Test {
@@ -76,8 +76,8 @@ TEST_F(Program, TellsTheLibrarysVersion) {
 TEST_F(Program, HelpsOnAllCommands) {
   const Finished finished = workspace.run({"--help"});
   EXPECT_EQ(finished.exit_code, kDone);
-  for (const char* command : {"info", "pulse", "identify", "simulate", "pitch", "identify-pitch", "identify-vertical",
-                              "compare", "run", "design", "export", "schema"})
+  for (const char* command : {"info", "pulse", "wall", "identify", "simulate", "pitch", "identify-pitch",
+                              "identify-vertical", "compare", "run", "design", "export", "schema"})
     EXPECT_THAT(finished.out, HasSubstr(command));
   EXPECT_THAT(examples_in(finished.out), SizeIs(1));
 }
