@@ -15,9 +15,7 @@ namespace crashsim {
 namespace io {
 
 std::span<const Reader* const> readers() {
-  static constexpr const Reader* kReaders[] = {&kNhtsaReader,       &kNhtsaUdsReader,   &kLsdynaBinoutReader,
-                                               &kLsdynaAsciiReader, &kRadiossT01Reader, &kRadiossCsvReader,
-                                               &kCsvReader};
+  static constexpr const Reader* kReaders[] = {&kNhtsaReader, &kNhtsaUdsReader, &kLsdynaBinoutReader, &kLsdynaAsciiReader, &kRadiossT01Reader, &kRadiossCsvReader, &kCsvReader};
   return kReaders;
 }
 

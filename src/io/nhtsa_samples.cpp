@@ -33,8 +33,9 @@ struct Row {
 
 Row parse_row(std::string_view line) {
   Row row;
-  const char* const end = line.data() + line.size();
-  const char* p = skip_blanks(line.data(), end);
+  const char* p = line.data();
+  const char* const end = p + line.size();
+  p = skip_blanks(p, end);
   for (; row.count < 2 && p != end; ++row.count) {
     const char* const after = scan_number(p, end, row.numbers[row.count]);
     if (after == p) break;
