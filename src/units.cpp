@@ -66,6 +66,7 @@ constexpr std::array kUnits = std::to_array<Spellings>({
     {{"m", Dimension::length, 1.0}, "m meter metre meters metres"},
     {{"mm", Dimension::length, 1e-3}, "mm millimeter millimetre millimeters millimetres"},
     {{"cm", Dimension::length, 1e-2}, "cm centimeter centimetre centimeters centimetres"},
+    {{"um", Dimension::length, 1e-6}, "um µm μm micron microns"},
     {{"km", Dimension::length, 1e3}, "km"},
     {{"in", Dimension::length, kInch}, "in inch inches"},
     {{"ft", Dimension::length, kFoot}, "ft foot feet"},
@@ -206,6 +207,8 @@ std::string_view si_symbol(Dimension dimension) { return names_of(dimension).si_
 std::string_view dimension_name(Dimension dimension) { return names_of(dimension).name; }
 
 std::optional<Unit> find_unit(std::string_view name) { return look_up(name, std::nullopt); }
+
+std::optional<Unit> find_unit(std::string_view name, Dimension dimension) { return look_up(name, dimension); }
 
 Dimension dimension_of(std::string_view symbol) {
   for (const DimensionNames& d : kDimensions)

@@ -50,6 +50,9 @@ std::string_view dimension_name(Dimension dimension);
 /// ignored where that is unambiguous. Empty when unknown.
 std::optional<Unit> find_unit(std::string_view name);
 
+/// The unit of a dimension that is spelled so: `g` of mass is a gram, `Nm` of energy a joule. Empty when there is none.
+std::optional<Unit> find_unit(std::string_view name, Dimension dimension);
+
 /// Dimension of an SI symbol as the option tables spell it ("m/s"). @throws InvalidInput on an unknown symbol.
 Dimension dimension_of(std::string_view si_symbol);
 

@@ -38,20 +38,20 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Spelling{"s", time, 1}, Spelling{"SEC", time, 1}, Spelling{"ms", time, 1e-3}, Spelling{"us", time, 1e-6},
         Spelling{"m", length, 1}, Spelling{"MM", length, 1e-3}, Spelling{"in", length, 0.0254},
-        Spelling{"ft", length, 0.3048}, Spelling{"m/s", speed, 1}, Spelling{"mm/s", speed, 1e-3},
-        Spelling{"mm/ms", speed, 1}, Spelling{"km/h", speed, 1 / 3.6}, Spelling{"KPH", speed, 1 / 3.6},
-        Spelling{"mph", speed, 0.44704}, Spelling{"m/sec", speed, 1}, Spelling{"G'S", acceleration, 9.80665},
-        Spelling{"g", acceleration, 9.80665}, Spelling{"G", acceleration, 9.80665}, Spelling{"m/s^2", acceleration, 1},
-        Spelling{"m/s²", acceleration, 1}, Spelling{"m/(s*s)", acceleration, 1}, Spelling{"m s-2", acceleration, 1},
-        Spelling{"mps2", acceleration, 1}, Spelling{"mm/s^2", acceleration, 1e-3},
-        Spelling{"mm/ms^2", acceleration, 1e3}, Spelling{"kg", mass, 1}, Spelling{"t", mass, 1e3},
-        Spelling{"Mg", mass, 1e3}, Spelling{"lb", mass, 0.45359237}, Spelling{"mg", mass, 1e-6},
-        Spelling{"N", force, 1}, Spelling{"NWT", force, 1}, Spelling{"kN", force, 1e3}, Spelling{"KN", force, 1e3},
-        Spelling{"lbf", force, 4.4482216152605}, Spelling{"N m", moment, 1}, Spelling{"NWM", moment, 1},
-        Spelling{"Nm", moment, 1}, Spelling{"N.mm", moment, 1e-3}, Spelling{"N/m", stiffness, 1},
-        Spelling{"n_per_m", stiffness, 1}, Spelling{"N/mm", stiffness, 1e3}, Spelling{"kN/m", stiffness, 1e3},
-        Spelling{"N s/m", damping, 1}, Spelling{"ns_per_m", damping, 1}, Spelling{"J", energy, 1},
-        Spelling{"kJ", energy, 1e3}, Spelling{"N s", impulse, 1}, Spelling{"N.s", impulse, 1},
+        Spelling{"ft", length, 0.3048}, Spelling{"µm", length, 1e-6}, Spelling{"m/s", speed, 1},
+        Spelling{"mm/s", speed, 1e-3}, Spelling{"mm/ms", speed, 1}, Spelling{"km/h", speed, 1 / 3.6},
+        Spelling{"KPH", speed, 1 / 3.6}, Spelling{"mph", speed, 0.44704}, Spelling{"m/sec", speed, 1},
+        Spelling{"G'S", acceleration, 9.80665}, Spelling{"g", acceleration, 9.80665},
+        Spelling{"G", acceleration, 9.80665}, Spelling{"m/s^2", acceleration, 1}, Spelling{"m/s²", acceleration, 1},
+        Spelling{"m/(s*s)", acceleration, 1}, Spelling{"m s-2", acceleration, 1}, Spelling{"mps2", acceleration, 1},
+        Spelling{"mm/s^2", acceleration, 1e-3}, Spelling{"mm/ms^2", acceleration, 1e3}, Spelling{"kg", mass, 1},
+        Spelling{"t", mass, 1e3}, Spelling{"Mg", mass, 1e3}, Spelling{"lb", mass, 0.45359237},
+        Spelling{"mg", mass, 1e-6}, Spelling{"N", force, 1}, Spelling{"NWT", force, 1}, Spelling{"kN", force, 1e3},
+        Spelling{"KN", force, 1e3}, Spelling{"lbf", force, 4.4482216152605}, Spelling{"N m", moment, 1},
+        Spelling{"NWM", moment, 1}, Spelling{"Nm", moment, 1}, Spelling{"N.mm", moment, 1e-3},
+        Spelling{"N/m", stiffness, 1}, Spelling{"n_per_m", stiffness, 1}, Spelling{"N/mm", stiffness, 1e3},
+        Spelling{"kN/m", stiffness, 1e3}, Spelling{"N s/m", damping, 1}, Spelling{"ns_per_m", damping, 1},
+        Spelling{"J", energy, 1}, Spelling{"kJ", energy, 1e3}, Spelling{"N s", impulse, 1}, Spelling{"N.s", impulse, 1},
         Spelling{"Mg.mm/s", impulse, 1}, Spelling{"rad", angle, 1}, Spelling{"°", angle, 0.017453292519943295},
         Spelling{"deg/s", angular_rate, 0.017453292519943295}, Spelling{"DPS", angular_rate, 0.017453292519943295},
         Spelling{"rad/s^2", angular_acceleration, 1}, Spelling{"kg m^2", inertia, 1}, Spelling{"Hz", frequency, 1},
@@ -64,6 +64,12 @@ TEST(Units, LetterCaseCountsWhereItTellsUnitsApart) {
   EXPECT_DOUBLE_EQ(find_unit("mN")->to_si, 1e-3);
   EXPECT_FALSE(find_unit("furlong").has_value());
   EXPECT_FALSE(find_unit("").has_value());
+}
+
+TEST(Units, ADimensionTellsUnitsOfOneSpellingApart) {
+  EXPECT_EQ(find_unit("g", mass)->to_si, 1e-3);
+  EXPECT_EQ(find_unit("Nm", energy)->dimension, energy);
+  EXPECT_FALSE(find_unit("N", mass).has_value());
 }
 
 TEST(Units, QuantitiesAcceptAUnitAndABareNumberIsSi) {
