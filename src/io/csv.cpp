@@ -115,6 +115,7 @@ TraceSet catalogue_of(const InputFile& file, const CsvLayout& layout, const std:
   TraceSet set;
   set.path = file.path();
   set.input_files = {file.path()};
+  set.metadata = layout.comments;
   for (const auto& [key, value] : layout.comments) {
     if (key == "mass_kg") set.mass_kg = parse_number(value).value_or(kUnset);
     if (key == "impact_speed_mps") set.impact_speed_mps = parse_number(value).value_or(kUnset);

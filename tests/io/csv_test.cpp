@@ -20,10 +20,12 @@ namespace crashsim {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::DoubleEq;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsNan;
+using testing::Pair;
 using testing::ThrowsMessage;
 
 struct Foreign {
@@ -122,6 +124,7 @@ TEST(Csv, OurOwnTablesComeBackBitForBit) {
   EXPECT_EQ(set.mass_kg, 1719.0);
   EXPECT_EQ(set.impact_speed_mps, 15.86);
   EXPECT_EQ(set.title, "a test");
+  EXPECT_THAT(set.metadata, Contains(Pair("mass_kg", "1719")));
   EXPECT_THAT(set.input_files, ElementsAre(dir.path("a.csv")));
   EXPECT_EQ(*set.traces[0].time_s, t);
   EXPECT_THAT(set.traces[0].values, ElementsAre(v[0], v[1], IsNan()));
