@@ -15,21 +15,33 @@ namespace crashsim {
 namespace io {
 
 std::span<const Reader* const> readers() {
-  static constexpr const Reader* kReaders[] = {&kNhtsaReader, &kNhtsaUdsReader, &kLsdynaBinoutReader, &kLsdynaAsciiReader, &kRadiossT01Reader, &kRadiossCsvReader, &kCsvReader};
+  static constexpr const Reader* kReaders[] = {&kNhtsaReader, &kNhtsaUdsReader, &kIsoMmeReader, &kLsdynaBinoutReader, &kLsdynaAsciiReader, &kRadiossT01Reader, &kRadiossCsvReader, &kCsvReader};
   return kReaders;
 }
 
 namespace {
 
+/// Whether the names of the first files in an archive are those of an ISO-MME test.
+bool is_archived_test(std::string_view head) {
+  const std::string names = to_lower(head);
+  return names.find(".mme") != std::string::npos || names.find(".chn") != std::string::npos ||
+         names.find("channel/") != std::string::npos;
+}
+
 /// What a file that no reader wants looks like, in words.
 std::string_view looks_like(const InputFile& file) {
-  constexpr std::size_t kSample = 4096;
+  constexpr std::size_t kSample = 4096, kTarMark = 257;
   if (file.is_folder()) return "a folder without trace files";
   const std::string_view head = file.bytes().substr(0, kSample);
   const std::string_view text = trimmed(head);
   if (text.empty()) return head.size() == file.bytes().size() ? "the file is empty" : "blank lines";
   if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) return "UTF-16 text: save it as UTF-8";
-  if (head.starts_with("PK\x03\x04")) return "a zip archive or a spreadsheet: unpack it, or export it as CSV";
+  if (head.starts_with("PK\x03\x04"))
+    return is_archived_test(head) ? "a zip archive of an ISO-MME test: unpack it and name its folder"
+                                  : "a zip archive or a spreadsheet: unpack it, or export it as CSV";
+  if (head.starts_with("7z\xbc\xaf")) return "a 7z archive: unpack it and name what it holds";
+  if (head.size() > kTarMark && head.substr(kTarMark).starts_with("ustar"))
+    return "a tar archive: unpack it and name what it holds";
   if (head.starts_with("\x1f\x8b")) return "gzip: unpack it first";
   if (head.find('\0') != std::string_view::npos) return "binary data";
   if (text.front() == '{' || (text.front() == '[' && text.size() > 1)) return "JSON";

@@ -13,6 +13,7 @@
 #include "io/nhtsa_samples.hpp"
 #include "io/nhtsa_status.hpp"
 #include "io/reader.hpp"
+#include "io/test_files.hpp"
 #include "text.hpp"
 
 namespace crashsim::io {
@@ -20,41 +21,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of the files in a folder by their lower-case spelling.
-std::map<std::string, std::string> files_beside(const std::string& path) {
-  std::map<std::string, std::string> files;
-  const fs::path folder = fs::path(path).parent_path();
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    files.emplace(to_lower(name), (folder / name).string());
-  }
-  return files;
-}
-
 constexpr std::string_view kTabSeparated = "tsv";  // "v10146tsv.093": a channel file of the tab-separated export
 
-/// The test's name without extension, lower-case: "v10146".
-std::string stem_of(const std::string& path) {
-  std::string stem = to_lower(fs::path(path).stem().string());
+/// The test that a file belongs to, lower-case: "v10146".
+std::string test_name(const std::string& path) {
+  std::string stem = stem_of(path);
   if (stem.size() > kTabSeparated.size() && stem.ends_with(kTabSeparated))
     stem.resize(stem.size() - kTabSeparated.size());
   return stem;
 }
 
-/// The curve number of a channel file's name, 0 when it is none: "v10146.093" is 93.
-int curve_of(const std::string& path) {
-  const std::string extension = fs::path(path).extension().string();
-  const bool digits =
-      extension.size() >= 4 && extension.size() <= 6 && std::all_of(extension.begin() + 1, extension.end(), is_digit);
-  return digits ? std::stoi(extension.substr(1)) : 0;
-}
-
 /// The header beside a channel file, "" when there is none.
 std::string header_beside(const std::string& path) {
-  if (curve_of(path) == 0) return "";
-  const auto files = files_beside(path);
-  const auto found = files.find(stem_of(path) + ".ev5");
+  if (channel_number(path) == 0) return "";
+  const auto files = files_in(fs::path(path).parent_path());
+  const auto found = files.find(test_name(path) + ".ev5");
   return found == files.end() ? "" : found->second;
 }
 
@@ -102,21 +83,6 @@ struct Test {
   TraceSet set;
 };
 
-/// The compartment's channels: those with files, else those the header names.
-std::vector<std::size_t> choose_compartment(const NhtsaHeader& header, const std::vector<bool>& good,
-                                            const std::vector<bool>& usable, TraceSet& set) {
-  auto wanted = compartment_channels(header, good);
-  auto present = compartment_channels(header, usable);
-  if (present.empty()) return wanted;
-  std::string absent;
-  for (const std::size_t i : wanted)
-    if (!usable[i]) absent += fmt::format("{}{}", absent.empty() ? "" : ", ", set.traces[i].id);
-  if (!absent.empty())
-    set.warnings.push_back(
-        fmt::format("{}: compartment channel {} has no file here: what is taken instead may differ", set.path, absent));
-  return present;
-}
-
 Test open_test(const std::string& header_path, std::string_view text) {
   Test test;
   test.header = parse_nhtsa_header(text, header_path);
@@ -124,13 +90,13 @@ Test open_test(const std::string& header_path, std::string_view text) {
   test.set.input_files = {header_path};
   test.set.metadata = std::move(test.header.metadata);
   test.set.warnings = std::move(test.header.warnings);
-  const auto beside = files_beside(header_path);
+  const auto beside = files_in(fs::path(header_path).parent_path());
   std::vector<bool> good, usable;  // by the header; and with a file
   for (const NhtsaChannel& c : test.header.channels) {
-    const std::string name = fmt::format("{}.{:03}", stem_of(header_path), c.curve);
+    const std::string name = fmt::format("{}.{:03}", test_name(header_path), c.curve);
     auto found = beside.find(name);
     if (found == beside.end())
-      found = beside.find(fmt::format("{}{}.{:03}", stem_of(header_path), kTabSeparated, c.curve));
+      found = beside.find(fmt::format("{}{}.{:03}", test_name(header_path), kTabSeparated, c.curve));
     test.files.push_back(found == beside.end() ? "" : found->second);
     Trace trace = describe(c);
     good.push_back(trace.problem.empty());
@@ -139,7 +105,8 @@ Test open_test(const std::string& header_path, std::string_view text) {
     usable.push_back(trace.problem.empty());
     test.set.traces.push_back(std::move(trace));
   }
-  const auto compartment = choose_compartment(test.header, good, usable, test.set);
+  const auto compartment = choose_compartment(compartment_channels(test.header, good),
+                                              compartment_channels(test.header, usable), usable, test.set);
   for (const std::size_t i : compartment) test.set.compartment_x.push_back(test.set.traces[i].id);
   describe_test(test.header, compartment, test.set);
   return test;
@@ -147,7 +114,7 @@ Test open_test(const std::string& header_path, std::string_view text) {
 
 /// Leaves only the channel of one file, which then is the one to use.
 void keep_only(Test& test, const std::string& channel_path) {
-  const int curve = curve_of(channel_path);
+  const int curve = channel_number(channel_path);
   const auto& channels = test.header.channels;
   const auto found = std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.curve == curve; });
   if (found == channels.end())

@@ -31,6 +31,7 @@ struct Reader {
   TraceSet (*read)(const InputFile& file, const ReadOptions& options, const Choose& choose);
 };
 
+extern const Reader kIsoMmeReader;
 extern const Reader kNhtsaReader;
 extern const Reader kLsdynaBinoutReader;
 extern const Reader kLsdynaAsciiReader;
