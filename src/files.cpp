@@ -1,5 +1,6 @@
 #include <crashsim/files.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -46,10 +47,15 @@ void write_directly(const std::string& path, std::string_view text) {
   if (const int error = write_and_close(file, text)) cannot_write(path, error);
 }
 
-void write_beside_and_rename(const std::string& path, std::string_view text) {
+/// A name beside `target` that nobody else uses.
+std::string name_beside(const std::string& target) {
   static std::atomic<unsigned> counter{0};
+  return fmt::format("{}.{}-{}.part", target, ::getpid(), counter++);
+}
+
+void write_beside_and_rename(const std::string& path, std::string_view text) {
   const std::string target = fs::is_symlink(path) ? fs::weakly_canonical(path).string() : path;
-  const std::string beside = fmt::format("{}.{}-{}.part", target, ::getpid(), counter++);
+  const std::string beside = name_beside(target);
   std::FILE* file = std::fopen(beside.c_str(), "wbx");
   if (file == nullptr) cannot_write(path, errno);
   int error = write_and_close(file, text);
@@ -57,6 +63,45 @@ void write_beside_and_rename(const std::string& path, std::string_view text) {
   if (error == 0) return;
   std::remove(beside.c_str());
   cannot_write(path, error);
+}
+
+/// Refuses to replace a folder that holds more than what is written anew.
+void check_replaceable(const fs::path& folder, const std::vector<FileText>& files, bool overwrite) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) throw InvalidInput(fmt::format("{}: is a file: name a folder", folder.string()));
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!overwrite)
+      throw InvalidInput(fmt::format("{}: exists already and is not empty: choose another name", folder.string()));
+    const bool is_written = std::any_of(files.begin(), files.end(), [&](const FileText& file) {
+      return file.name.substr(0, file.name.find('/')) == name;
+    });
+    if (!is_written)
+      throw InvalidInput(
+          fmt::format("{}: holds {} too, which would be lost: choose another folder", folder.string(), name));
+  }
+}
+
+void write_files_into(const fs::path& folder, const std::vector<FileText>& files) {
+  for (const FileText& file : files) {
+    const fs::path path = folder / file.name;
+    fs::create_directories(path.parent_path());
+    write_directly(path.string(), file.text);
+  }
+}
+
+/// Puts `made` in the place of `folder`, which goes away, or stays when that fails.
+void exchange(const fs::path& made, const fs::path& folder) {
+  if (!fs::exists(folder)) return fs::rename(made, folder);
+  const fs::path old = name_beside(folder.string());
+  fs::rename(folder, old);
+  try {
+    fs::rename(made, folder);
+  } catch (const fs::filesystem_error&) {
+    fs::rename(old, folder);
+    throw;
+  }
+  fs::remove_all(old);
 }
 
 }  // namespace
@@ -83,6 +128,27 @@ void write_file_atomically(const std::string& path, std::string_view text, bool 
   if (fs::exists(status) && !overwrite)
     throw InvalidInput(fmt::format("{}: exists already: choose another name", path));
   write_beside_and_rename(path, text);
+}
+
+void write_folder_atomically(const std::string& path, const std::vector<FileText>& files, bool overwrite) {
+  fs::path folder = fs::path(path).lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();
+  if (path.empty() || folder == "." || folder == "..")
+    throw InvalidInput(fmt::format("'{}': name a folder to be made", path));
+  const fs::path beside = name_beside(folder.string());
+  try {
+    check_replaceable(folder, files, overwrite);
+    write_files_into(beside, files);
+    exchange(beside, folder);
+  } catch (const fs::filesystem_error& error) {
+    std::error_code ignored;
+    fs::remove_all(beside, ignored);
+    cannot_write(path, error.code().value());
+  } catch (const SystemFailure&) {
+    std::error_code ignored;
+    fs::remove_all(beside, ignored);
+    throw;
+  }
 }
 
 void write_output(const std::string& path, std::string_view text, bool overwrite) {

@@ -15,7 +15,9 @@ namespace crashsim {
 namespace io {
 
 std::span<const Reader* const> readers() {
-  static constexpr const Reader* kReaders[] = {&kNhtsaReader, &kNhtsaUdsReader, &kIsoMmeReader, &kLsdynaBinoutReader, &kLsdynaAsciiReader, &kRadiossT01Reader, &kRadiossCsvReader, &kCsvReader};
+  static constexpr const Reader* kReaders[] = {&kNhtsaReader,        &kNhtsaUdsReader,    &kIsoMmeReader,
+                                               &kLsdynaBinoutReader, &kLsdynaAsciiReader, &kRadiossT01Reader,
+                                               &kRadiossCsvReader,   &kCsvReader};
   return kReaders;
 }
 

@@ -20,6 +20,7 @@
 #include <crashsim/identify_options.hpp>
 #include <crashsim/identify_pitch.hpp>
 #include <crashsim/identify_vertical.hpp>
+#include <crashsim/iso_mme.hpp>
 #include <crashsim/load_cell_wall.hpp>
 #include <crashsim/measured_motion.hpp>
 #include <crashsim/measured_vertical.hpp>

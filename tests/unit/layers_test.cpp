@@ -52,6 +52,7 @@ const std::map<std::string, Layer> kLayers = {
     {"force_rows", signals},
     {"measured_motion", signals},
     {"io/", signals},
+    {"iso_mme", signals},
     {"pulse", signals},
     {"pulse_channels", signals},
     {"pulse_steps", signals},
