@@ -41,10 +41,10 @@ class DesignCommand : public FolderCommand {
     inputs.push_back(file_);
     check_folder(design_file_names(study), inputs);
     const DesignCaseResult result = run_watched(study);
-    const std::vector<CaseFile> files = design_files(study, result);
+    const std::vector<FileText> files = design_files(study, result);
     write_files(files);
     report(study, result);
-    const auto is_summary = [](const CaseFile& file) { return file.name == kDesignSummary; };
+    const auto is_summary = [](const FileText& file) { return file.name == kDesignSummary; };
     print_json(std::find_if(files.begin(), files.end(), is_summary)->text);
     if (interrupted()) return kInterruptedExit;
     return result.usable() ? kDone : kNumbersFailed;

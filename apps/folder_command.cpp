@@ -19,13 +19,13 @@ void FolderCommand::check_folder(const std::vector<std::string>& names, const st
   for (const std::string& name : names) check_writable(path_of(name), inputs);
 }
 
-void FolderCommand::write_files(const std::vector<CaseFile>& files) const {
+void FolderCommand::write_files(const std::vector<FileText>& files) const {
   if (output().empty()) return;
   const CooperativeInterrupt finish_first;
   std::error_code error;
   fs::create_directories(output(), error);
   if (error) throw SystemFailure(fmt::format("{}: cannot be made: {}", output(), error.message()));
-  for (const CaseFile& file : files) write_file_atomically(path_of(file.name), file.text, overwrite());
+  for (const FileText& file : files) write_file_atomically(path_of(file.name), file.text, overwrite());
 }
 
 std::string FolderCommand::path_of(const std::string& name) const { return (fs::path(output()) / name).string(); }

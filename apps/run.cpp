@@ -69,10 +69,10 @@ class RunCommand : public FolderCommand {
     inputs.push_back(file_);
     check_folder(case_file_names(study), inputs);
     const CaseResult result = run_watched(study);
-    const std::vector<CaseFile> files = case_files(study, result);
+    const std::vector<FileText> files = case_files(study, result);
     write_files(files);
     report(study, result);
-    const auto is_summary = [](const CaseFile& file) { return file.name == kCaseSummary; };
+    const auto is_summary = [](const FileText& file) { return file.name == kCaseSummary; };
     print_json(std::find_if(files.begin(), files.end(), is_summary)->text);
     if (interrupted()) return kInterruptedExit;
     return result.usable() ? kDone : kNumbersFailed;

@@ -76,9 +76,9 @@ std::vector<std::string> case_file_names(const Case& study) {
   return names;
 }
 
-std::vector<CaseFile> case_files(const Case& study, const CaseResult& result) {
+std::vector<FileText> case_files(const Case& study, const CaseResult& result) {
   const Record record = make_record("run", {study.path}, entries_of(study), result.input_files);
-  std::vector<CaseFile> files;
+  std::vector<FileText> files;
   if (result.pulse) files.push_back({kPulse, format_pulse(*result.pulse, record)});
   if (result.response.outcome != CrushOutcome::not_run) {
     const Identification* fit = result.identification ? &*result.identification : nullptr;

@@ -122,9 +122,9 @@ std::vector<std::string> design_file_names(const Case& study) {
   return names;
 }
 
-std::vector<CaseFile> design_files(const Case& study, const DesignCaseResult& result) {
+std::vector<FileText> design_files(const Case& study, const DesignCaseResult& result) {
   const Record record = make_record("design", {study.path}, entries_of(study), result.base.input_files);
-  std::vector<CaseFile> files = {{kSensitivities, format_sensitivities(result.design, record)}};
+  std::vector<FileText> files = {{kSensitivities, format_sensitivities(result.design, record)}};
   if (!result.design.trade_off.empty()) files.push_back({kTradeOff, format_trade_off(result.design, record)});
   if (result.design.usable()) {
     files.push_back({kModel, format_model(result.design.optimum.crush, nullptr, &record)});

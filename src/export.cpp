@@ -41,7 +41,7 @@ double steepest_of(const ForceCurve& curve) {
   return steepest;
 }
 
-/// k_u of plastic unloading [N/m].
+/// k_u of plastic unloading [N/m]; unset where the spring bears nothing at maximum crush.
 double unloading_stiffness(const CrushModel& model, std::vector<std::string>& notes) {
   const Unloading& unloading = model.unloading;
   if (!std::isnan(unloading.unloading_stiffness_n_per_m)) return unloading.unloading_stiffness_n_per_m;
@@ -55,6 +55,12 @@ double unloading_stiffness(const CrushModel& model, std::vector<std::string>& no
   if (std::isnan(response.max_crush_m))
     throw NumericalFailure(fmt::format("the unloading stiffness needs the maximum crush: {}", response.brief_report()));
   const double force = spring_force(model, response.max_crush_m);
+  if (!(force > 0.0)) {
+    notes.emplace_back(
+        "the spring bears no force at maximum crush, so that no unloading stiffness gives the restitution: the cards "
+        "unload the way they load");
+    return kUnset;
+  }
   const double e = std::max(unloading.restitution, kLeastRestitution);
   if (e > unloading.restitution)
     notes.push_back(fmt::format("restitution {:g} cannot be had from a spring: the cards unload with {:g}",
@@ -155,7 +161,7 @@ std::string card_header(const CardModel& cards, const CrushModel& model, const E
   const auto line = [&](std::string_view words) { text += fmt::format("{} {}\n", mark, words); };
   line(fmt::format("crashsim = {}", record.version));
   line(fmt::format("record = {}", to_json(record)));
-  line(fmt::format("units = {}", options.units));
+  line(fmt::format("units = {}", options.units.empty() ? "kg-m-s" : options.units));
   line(fmt::format("mass = {:.9g}, impact speed = {:.9g}", cards.mass, cards.speed));
   line(fmt::format("law = {}, extrapolation = {}, unloading = {}", name_of(model.law), name_of(model.extrapolation),
                    name_of(model.unloading.kind)));
@@ -185,9 +191,11 @@ Exported export_model(const CrushModel& model, const ExportOptions& options, con
   validate_options(options, "ExportOptions");
   validate(model);
   if (std::ranges::find(kExportTargets, options.to) == std::end(kExportTargets)) {
-    if (options.to.empty()) throw InvalidInput("export: to what? give --to lsdyna, radioss or csv");
+    if (options.to.empty()) throw InvalidInput("export: to what? give --to lsdyna, radioss, csv or iso-mme");
     detail::throw_unknown_name("--to", options.to, {std::begin(kExportTargets), std::end(kExportTargets)});
   }
+  if (options.to == kIsoMmeTarget)
+    throw InvalidInput("export: an ISO-MME test is made of traces (pulse.csv, response.csv), not of a model");
   if (options.to == "csv") {
     if (io::parse_unit_system(options.units) != io::UnitSystem{})
       throw InvalidInput(fmt::format("units = {}: a table is in SI, as its columns say: leave it out", options.units));

@@ -11,6 +11,7 @@
 #include <crashsim/comparison.hpp>
 #include <crashsim/config.hpp>
 #include <crashsim/design_options.hpp>
+#include <crashsim/files.hpp>
 #include <crashsim/forcing.hpp>
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
@@ -130,11 +131,6 @@ CaseResult run_case(const Case& study, const Progress& progress = {});
 Summary summarize(const CaseResult& result);
 std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& result);
 
-/// One file of a case directory.
-struct CaseFile {
-  std::string name, text;
-};
-
 /// Name of the file that holds the summary.
 inline constexpr std::string_view kCaseSummary = "summary.json";
 
@@ -146,6 +142,6 @@ std::vector<std::string> case_file_names(const Case& study);
 
 /// The files of a case directory: pulse.csv, model.json, response.csv, pitch.csv, coupled.csv, prediction_*.csv,
 /// comparison.json, summary.json and, last, case.lock.json, the record.
-std::vector<CaseFile> case_files(const Case& study, const CaseResult& result);
+std::vector<FileText> case_files(const Case& study, const CaseResult& result);
 
 }  // namespace crashsim

@@ -39,6 +39,6 @@ std::vector<std::string> design_file_names(const Case& study);
 
 /// sensitivities.csv, trade_off.csv, model.json and coupled.csv of the optimum, design.json and, last, case.lock.json,
 /// the record.
-std::vector<CaseFile> design_files(const Case& study, const DesignCaseResult& result);
+std::vector<FileText> design_files(const Case& study, const DesignCaseResult& result);
 
 }  // namespace crashsim

@@ -1,5 +1,5 @@
 #pragma once
-/// A crush model for other programs: cards of finite-element solvers, and tables.
+/// Models and traces for other programs: cards of finite-element solvers, tables, ISO-MME tests.
 
 #include <array>
 #include <string>
@@ -12,22 +12,32 @@
 
 namespace crashsim {
 
-/// What a model is exported to: an include file of LS-DYNA or OpenRadioss, or a table.
-inline constexpr std::string_view kExportTargets[] = {"lsdyna", "radioss", "csv"};
+/// What is written: of a model an include file of LS-DYNA or OpenRadioss, or a table; of traces an ISO-MME test
+/// (write_iso_mme()).
+inline constexpr std::string_view kIsoMmeTarget = "iso-mme";
+inline constexpr std::string_view kExportTargets[] = {"lsdyna", "radioss", "csv", kIsoMmeTarget};
 
 struct ExportOptions {
-  std::string to;                ///< One of kExportTargets.
-  std::string units = "kg-m-s";  ///< Of the deck: "kg-m-s", "t-mm-s", "kg-mm-ms", "g-mm-ms". A table is in SI.
-  int first_id = 1;              ///< Of curves, parts, materials, nodes and elements; each takes up to three.
+  std::string to;  ///< One of kExportTargets.
+  /// Of the deck: "kg-m-s", "t-mm-s", "kg-mm-ms", "g-mm-ms"; "": kg-m-s. Of traces as in ReadOptions. A table is in SI.
+  std::string units = {};
+  int first_id = 1;                        ///< Of curves, parts, materials, nodes and elements; each takes up to three.
+  std::string test_name = {};              ///< Of an ISO-MME test; "": the name of the file it is made from.
+  std::vector<std::string> channels = {};  ///< Of an ISO-MME test, as in ReadOptions; empty: all.
 
   bool operator==(const ExportOptions&) const = default;
 };
 inline constexpr int kLargestFirstId = 99999990;  // ids of elements have eight columns
-inline constexpr std::array<Field<ExportOptions>, 3> kExportFields = {{
-    {"to", "to", "", "what to write: lsdyna, radioss or csv", &ExportOptions::to},
-    {"units", "units", "", "unit system of the deck: kg-m-s, t-mm-s, kg-mm-ms, g-mm-ms", &ExportOptions::units},
+inline constexpr std::array<Field<ExportOptions>, 5> kExportFields = {{
+    {"to", "to", "", "what to write: lsdyna, radioss, csv, or of traces iso-mme", &ExportOptions::to},
+    {"units", "units", "",
+     "unit system of FE traces, or of the deck (default kg-m-s): kg-m-s, t-mm-s, kg-mm-ms, g-mm-ms",
+     &ExportOptions::units},
     {"first_id", "id", "", "first number of curves, parts, materials, nodes and elements", &ExportOptions::first_id,
      between(1, kLargestFirstId)},
+    {"test_name", "test", "", "name of an ISO-MME test; default: the file's", &ExportOptions::test_name},
+    {"channels", "channel", "", "iso-mme: channel to write: name, number, code or glob; default: all",
+     &ExportOptions::channels},
 }};
 template <>
 inline constexpr std::span<const Field<ExportOptions>> fields<ExportOptions>{kExportFields};
@@ -53,7 +63,7 @@ struct Exported {
   std::vector<std::string> notes;  ///< What the cards cannot say, or say otherwise than the model; also in the text.
 };
 
-/// Writes the model for `options.to`.
+/// Writes the model for `options.to`, which is not kIsoMmeTarget.
 /// lsdyna: *DEFINE_CURVE, *MAT_SPRING_NONLINEAR_ELASTIC (plastic unloading: *MAT_SPRING_GENERAL_NONLINEAR),
 /// *MAT_DAMPER_NONLINEAR_VISCOUS with their *PART, *SECTION_DISCRETE, *ELEMENT_DISCRETE and *NODE. radioss: /FUNCT,
 /// /PROP/TYPE4, /PART, /SPRING, /NODE. In both an element's deflection and force are positive in tension; crush is

@@ -33,14 +33,18 @@ struct IsoMmeTest {
   std::vector<std::string> comments;       ///< Where it comes from, one line each.
   std::string record;                      ///< What made it, as to_json(record); "" when there is none.
   std::vector<IsoMmeChannel> channels;
+  std::vector<std::string> notes;  ///< Channels left out, and why; not written.
 };
 
 /// The channels of a set under their ISO-MME codes. Columns of this program's files (pulse.csv, response.csv,
 /// pitch.csv, coupled.csv) have codes of their own, and those with another sign than SAE J211 are turned: heave, which
-/// is up positive, pitch, which is nose-down positive, and forces that stop the vehicle. Other channels keep their code
-/// when that is one, or get one by what they measure. The filter class is that of the set's step `filter: CFC60 ..`.
-/// @throws InvalidInput when a channel has no samples or measures what the standard has no letters for.
-std::vector<IsoMmeChannel> iso_mme_channels(const TraceSet& set);
+/// is up positive, pitch, which is nose-down positive, and forces that stop the vehicle; their names end in
+/// "(SAE J211 sign)". Other channels keep their code when that is one, or get one by what they measure. The filter
+/// class is that of the set's step `filter: CFC60 ..`. A channel that has no samples or measures what the standard has
+/// no letters for is left out.
+/// @param notes gets "left out: channel 2 k_n_per_m: .." for each of those.
+/// @throws InvalidInput when none is left.
+std::vector<IsoMmeChannel> iso_mme_channels(const TraceSet& set, std::vector<std::string>& notes);
 
 /// A set as a test called `name`: its channels, mass, speed, title, and for a CSV file its comments.
 /// @throws InvalidInput as iso_mme_channels().

@@ -64,20 +64,31 @@ char filter_class(const TraceSet& set) {
   return letter;
 }
 
+/// Why a trace cannot be written, "" when it can.
+std::string fault_of(const Trace& trace) {
+  if (!trace.has_samples)
+    return trace.problem.empty() ? "its samples are not there"
+                                 : fmt::format("its samples are not there: {}", trace.problem);
+  if (io::iso_mme_letters(trace.dimension).empty())
+    return fmt::format("ISO-MME has no code for {}", trace.dimension == Dimension::unknown
+                                                         ? "what has no known unit"
+                                                         : dimension_name(trace.dimension));
+  return "";
+}
+
 /// A code by what a trace measures: "100000010000ACX0", with a number that tells such channels apart.
-std::string code_by_dimension(const Trace& trace, std::size_t number, const TraceSet& set) {
-  const std::string_view letters = io::iso_mme_letters(trace.dimension);
-  if (letters.empty())
-    throw InvalidInput(fmt::format("{}: channel {} {}: ISO-MME has no code for {}; leave it out with --channel",
-                                   set.path, trace.id, trace.name, dimension_name(trace.dimension)));
-  return fmt::format("100000{:02}{:02}00{}{}0", number / 100 % 100, number % 100, letters,
+std::string code_by_dimension(const Trace& trace, std::size_t number) {
+  return fmt::format("100000{:02}{:02}00{}{}0", number / 100 % 100, number % 100, io::iso_mme_letters(trace.dimension),
                      trace.axis == ' ' ? '0' : trace.axis);
 }
 
+/// To the sign of SAE J211. The name says so, for a column of its own name has the other sign.
+void turn(IsoMmeChannel& channel) {
+  channel.name += " (SAE J211 sign)";
+  for (double& value : channel.values) value = -value;
+}
+
 IsoMmeChannel channel_of(const Trace& trace, std::size_t number, const TraceSet& set) {
-  if (!trace.has_samples)
-    throw InvalidInput(fmt::format("{}: channel {} {}: its samples are not there; leave it out with --channel",
-                                   set.path, trace.id, trace.name));
   IsoMmeChannel channel;
   channel.name = trace.name;
   channel.dimension = trace.dimension;
@@ -92,19 +103,29 @@ IsoMmeChannel channel_of(const Trace& trace, std::size_t number, const TraceSet&
   } else if (known != kColumns.end() && io::iso_mme_dimension(std::string(known->code) + "0") == trace.dimension) {
     channel.code = std::string(known->code) + filter_class(set);
     channel.comment = std::string(known->comment);
-    if (known->sign < 0.0)
-      for (double& value : channel.values) value = -value;
+    if (known->sign < 0.0) turn(channel);
   } else {
-    channel.code = code_by_dimension(trace, number, set);
+    channel.code = code_by_dimension(trace, number);
   }
   return channel;
 }
 
 }  // namespace
 
-std::vector<IsoMmeChannel> iso_mme_channels(const TraceSet& set) {
+std::vector<IsoMmeChannel> iso_mme_channels(const TraceSet& set, std::vector<std::string>& notes) {
   std::vector<IsoMmeChannel> channels;
-  for (const Trace& trace : set.traces) channels.push_back(channel_of(trace, channels.size() + 1, set));
+  std::vector<std::string> left_out;
+  for (const Trace& trace : set.traces) {
+    const std::string fault = fault_of(trace);
+    if (fault.empty())
+      channels.push_back(channel_of(trace, channels.size() + 1, set));
+    else
+      left_out.push_back(fmt::format("channel {} {}: {}", trace.id, trace.name, fault));
+  }
+  if (channels.empty())
+    throw InvalidInput(fmt::format("{}: no channel can be written as ISO-MME{}", set.path,
+                                   left_out.empty() ? "" : ": " + left_out.front()));
+  for (const std::string& channel : left_out) notes.push_back("left out: " + channel);
   return channels;
 }
 
@@ -115,9 +136,9 @@ IsoMmeTest make_iso_mme_test(const TraceSet& set, const std::string& name) {
   test.title = set.title;
   test.mass_kg = set.mass_kg;
   test.impact_speed_mps = set.impact_speed_mps;
-  test.channels = iso_mme_channels(set);
+  test.channels = iso_mme_channels(set, test.notes);
   const bool simulated = std::any_of(set.traces.begin(), set.traces.end(), [](const Trace& trace) {
-    return trace.name == "spring_force_n" || trace.name == "heave_m";
+    return trace.name == "spring_force_n" || trace.name.starts_with("heave_m");
   });
   if (!simulated) test.data_source = "calculation";
   if (set.format != "csv") return test;

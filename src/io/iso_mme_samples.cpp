@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "io/last_line.hpp"
 #include "number.hpp"
 #include "text.hpp"
 
@@ -28,37 +29,6 @@ const char* scan_sample(const char* p, const char* end, double& value) {
   return p + kNoValue.size();
 }
 
-/// How a number is written: digits after its point and of its exponent.
-struct Form {
-  std::size_t decimals = 0, exponent_digits = 0;
-  bool operator==(const Form&) const = default;
-};
-
-Form form_of(std::string_view line) {
-  const std::string_view number = trimmed(line);
-  const std::size_t exponent = std::min(number.find_first_of("eE"), number.size());
-  const std::size_t point = number.find('.');
-  Form form;
-  if (point < exponent) form.decimals = exponent - point - 1;
-  for (std::size_t i = exponent; i < number.size(); ++i) form.exponent_digits += is_digit(number[i]) ? 1U : 0U;
-  return form;
-}
-
-/// Whether the last line must be whole although it has no end: were it cut short, it would have another form than every
-/// line before it. A one-digit exponent proves nothing, as it may be the first digit of two.
-bool is_whole(std::string_view data, std::string_view last) {
-  constexpr std::size_t kEnoughLines = 20;
-  const Form form = form_of(last);
-  if (form.decimals == 0 || form.exponent_digits == 1) return false;
-  std::size_t lines = 0;
-  for (std::string_view rest = data.substr(0, data.size() - last.size()); !rest.empty(); ++lines) {
-    const std::size_t end = rest.find('\n');
-    if (form_of(rest.substr(0, end)) != form) return false;
-    rest.remove_prefix(std::min(end, rest.size() - 1) + 1);
-  }
-  return lines >= kEnoughLines;
-}
-
 /// Reads the values of all lines that have an end, and of the last when it is known to be whole. Returns whether
 /// something was left out at the end.
 bool read_values(std::string_view data, std::size_t first_line, const std::string& path, IsoMmeSamples& samples) {
@@ -73,7 +43,9 @@ bool read_values(std::string_view data, std::size_t first_line, const std::strin
     const bool found = p != number;
     p = skip_blanks(p, end);
     if (p == end && found && end[-1] != '\r')
-      if (!is_whole(data, {start, static_cast<std::size_t>(end - start)})) return true;
+      if (!is_last_line_whole({data.data(), static_cast<std::size_t>(start - data.data())},
+                              {start, static_cast<std::size_t>(end - start)}))
+        return true;
     if (p != end && *p != '\n') {
       const std::string_view rest(number, static_cast<std::size_t>(end - number));
       const std::size_t length = rest.find('\n');

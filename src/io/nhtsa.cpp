@@ -48,6 +48,9 @@ Trace describe(const NhtsaChannel& c) {
   trace.source_unit = c.y_unit;
   if (const auto unit = find_unit(c.y_unit)) trace.dimension = unit->dimension;
   trace.problem = nhtsa_status(c.data_status, "DASTAT").problem;
+  const auto x_unit = find_unit(c.x_unit);
+  if (trace.problem.empty() && !c.x_unit.empty() && (!x_unit || x_unit->dimension != Dimension::time))
+    trace.problem = fmt::format("its x is in {}, not a time", c.x_unit);
   trace.has_samples = false;
   return trace;
 }
@@ -141,9 +144,11 @@ TraceSet read(const InputFile& file, const ReadOptions&, const Choose& choose) {
     keep_only(test, file.path());
   }
   NhtsaClocks clocks;
-  for (const std::size_t i : choose(test.set))
-    if (!test.files[i].empty())
-      read_nhtsa_samples(test.header.channels[i], test.files[i], clocks, test.set.traces[i], test.set);
+  for (const std::size_t i : choose(test.set)) {
+    const NhtsaChannel& channel = test.header.channels[i];
+    if (!channel.doubt.empty()) test.set.warnings.push_back(channel.doubt);
+    if (!test.files[i].empty()) read_nhtsa_samples(channel, test.files[i], clocks, test.set.traces[i], test.set);
+  }
   return std::move(test.set);
 }
 

@@ -108,13 +108,13 @@ char axis_in_words(std::string_view comment) {
 }
 
 /// Real headers label some channels with the axis of their neighbour.
-void warn_of_wrong_axis(const NhtsaChannel& c, const std::string& where, NhtsaHeader& header) {
+std::string doubt_of_axis(const NhtsaChannel& c, const std::string& where) {
   const char said = axis_in_words(c.comment);
   if (said == ' ' || c.axis.empty() || lower(c.axis.front()) == said || lower(c.axis.front()) < 'x' ||
       lower(c.axis.front()) > 'z')
-    return;
-  header.warnings.push_back(fmt::format("{}: channel {} '{}' has AXIS {}: one of them is wrong, AXIS is used", where,
-                                        c.curve, c.comment, c.axis));
+    return {};
+  return fmt::format("{}: channel {} '{}' has AXIS {}: one of them is wrong, AXIS is used", where, c.curve, c.comment,
+                     c.axis);
 }
 
 void parse_test(const Record& r, NhtsaHeader& header) {
@@ -134,7 +134,8 @@ void parse_record(std::string_view section, const Record& record, NhtsaHeader& h
   if (section == "BARRIER") header.barrier_rigidity = record.text(barrier::kRigidity);
   if (section == "INSTRUMENTATION") {
     header.channels.push_back(parse_channel(record));
-    warn_of_wrong_axis(header.channels.back(), record.where, header);
+    NhtsaChannel& channel = header.channels.back();
+    channel.doubt = doubt_of_axis(channel, record.where);
   }
   append_nhtsa_fields(section, record.fields, header.metadata);
 }

@@ -27,6 +27,7 @@ struct NhtsaChannel {
   long first = 0, last = 0;                                        ///< NFP, NLP: numbers of the first and last sample.
   double step_us = kUnset;                                         ///< DELT.
   std::string data_status, channel_status, comment;                ///< DASTAT CHSTAT INSCOM.
+  std::string doubt;  ///< What is odd about it, with path and line; "" when nothing is.
 };
 
 struct NhtsaHeader {

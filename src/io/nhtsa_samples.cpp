@@ -10,6 +10,7 @@
 #include <crashsim/units.hpp>
 
 #include "io/input_file.hpp"
+#include "io/last_line.hpp"
 #include "number.hpp"
 #include "text.hpp"
 
@@ -45,23 +46,12 @@ Row parse_row(std::string_view line) {
   return row;
 }
 
-/// Whether both lines end in decimals of one form, so that none can have lost a digit. Files print a fixed number.
-bool end_alike(std::string_view a, std::string_view b) {
-  const auto tail_of = [](std::string_view line) {
-    const std::size_t point = line.rfind('.');
-    return point == std::string_view::npos ? std::string_view() : line.substr(point);
-  };
-  const std::string_view x = tail_of(a), y = tail_of(b);
-  return !x.empty() && std::equal(x.begin(), x.end(), y.begin(), y.end(),
-                                  [](char m, char n) { return m == n || (is_digit(m) && is_digit(n)); });
-}
-
 /// Collects the rows of a file line by line.
 class RowCollector {
  public:
   explicit RowCollector(const std::string& path) : path_(path) {}
 
-  /// Takes a line without its end. False when there is no use in going on.
+  /// Takes the next line of a text, without its end. False when there is no use in going on.
   bool take(std::string_view line, bool is_ended) {
     ++number_;
     const std::string_view text = trimmed(line);
@@ -69,7 +59,7 @@ class RowCollector {
     const Row row = parse_row(text);
     const bool is_first = rows_.values.empty();
     const bool fits = row.count > 0 && row.rest.empty() && (is_first || (row.count == 2) == !rows_.times.empty());
-    if (!is_ended && !(fits && end_alike(text, last_))) {
+    if (!is_ended && !(fits && !is_first && is_last_line_whole(rows_before(line), line))) {
       rows_.last_is_dropped = true;
       if (is_first && !fits) note(row);
       return false;
@@ -77,7 +67,7 @@ class RowCollector {
     if (!fits) return pass_over(row, text);
     if (row.count == 2) rows_.times.push_back(row.numbers[0]);
     rows_.values.push_back(row.numbers[row.count - 1]);
-    last_ = text;
+    if (is_first) first_row_ = line.data();
     return true;
   }
 
@@ -88,6 +78,11 @@ class RowCollector {
   }
 
  private:
+  /// The text from the first row up to a line.
+  [[nodiscard]] std::string_view rows_before(std::string_view line) const {
+    return {first_row_, static_cast<std::size_t>(line.data() - first_row_)};
+  }
+
   void note(const Row& row) {
     constexpr std::size_t kMost = 40;
     if (odd_.empty())
@@ -109,8 +104,8 @@ class RowCollector {
   const std::string& path_;
   std::size_t number_ = 0;
   int headers_ = 0;
-  std::string odd_;  ///< The first line that is no row.
-  std::string_view last_;
+  std::string odd_;                  ///< The first line that is no row.
+  const char* first_row_ = nullptr;  ///< In the text that the lines are of.
   NhtsaRows rows_;
 };
 

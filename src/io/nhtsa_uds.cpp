@@ -283,6 +283,7 @@ Uds catalogue(const InputFile& file) {
   }
   if (uds.channels.empty())
     throw InvalidInput(fmt::format("{}: no curve header: the file is cut short at byte {}", file.path(), bytes.size()));
+  if (uds.set.compartment_x.size() > 1) uds.set.compartment_x.clear();  // the file does not say which is its
   if (uds.declared_channels != std::ssize(uds.channels))
     uds.set.warnings.push_back(fmt::format("{}: NCHAN promises {} channels, the file has {}", file.path(),
                                            uds.declared_channels, uds.channels.size()));

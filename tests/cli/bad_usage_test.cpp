@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"export_to_nothing",
                 {{"m.json", test::kModelText}},
                 {"export", "m.json", "-o", "out"},
-                {"export: to what? give --to lsdyna, radioss or csv"}},
+                {"export: to what? give --to lsdyna, radioss, csv or iso-mme"}},
         Refusal{"export_to_something_else",
                 {{"m.json", test::kModelText}},
                 {"export", "m.json", "--to", "radios", "-o", "out"},

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <crashsim/comparison.hpp>
 #include <crashsim/error.hpp>
 #include <crashsim/files.hpp>
 #include <crashsim/iso_mme.hpp>
@@ -184,7 +185,8 @@ TEST(IsoMmeWriter, HeaveAndPitchAreTurnedToTheSignsOfSaeJ211) {
       "# outcome = "
       "completed\ntime_s,heave_m,pitch_rad,pitch_rate_radps,front_axle_force_n,pitch_moment_nm,spring_force_n\n"
       "0,0.25,0.5,1,2,3,4\n0.001,1,1,1,1,1,1\n");
-  const auto channels = iso_mme_channels(read_traces(path));
+  std::vector<std::string> notes;
+  const auto channels = iso_mme_channels(read_traces(path), notes);
   std::vector<std::string> codes;
   Samples first;
   for (const IsoMmeChannel& channel : channels) {
@@ -195,19 +197,48 @@ TEST(IsoMmeWriter, HeaveAndPitchAreTurnedToTheSignsOfSaeJ211) {
                                  "10VEHCCG0000MOY0", "10FREN010000FO00"));
   EXPECT_THAT(first, ElementsAre(-0.25, -0.5, -1, -2, -3, 4));
   EXPECT_THAT(channels[0].comment, HasSubstr("turned to Z down"));
+  EXPECT_EQ(channels[0].name, "heave_m (SAE J211 sign)");
+  EXPECT_EQ(channels[5].name, "spring_force_n") << "its sign is its own";
+  EXPECT_THAT(notes, IsEmpty());
 }
 
-TEST(IsoMmeWriter, ForeignChannelsGetACodeByWhatTheyMeasureOrAreRefused) {
+TEST(IsoMmeWriter, TurnedChannelsAreNotComparedWithWhatTheyWereMadeFrom) {
   const test::TempDir dir;
-  const auto channels = iso_mme_channels(read_traces(dir.file("a.csv", "time_s,left_g,F [kN]\n0,1,2\n1,2,3\n")));
+  const TraceSet motion = read_traces(dir.file("pitch.csv", "time_s,heave_m,pitch_rad\n0,0,0\n0.001,1,1\n0.002,2,3\n"));
+  write_iso_mme(make_iso_mme_test(motion, "T1"), dir.path("T1"));
+  const TraceSet turned = read_traces(dir.path("T1"));
+  EXPECT_THAT(turned.traces.at(0).values, ElementsAre(0, -1, -2));
+  EXPECT_THAT([&] { compare(motion, turned); }, ThrowsMessage<InvalidInput>(HasSubstr("have no channel in common")));
+
+  const IsoMmeTest again = make_iso_mme_test(turned, "T2");
+  EXPECT_EQ(again.data_source, "simulation");
+  EXPECT_EQ(again.channels.at(0).name, turned.traces[0].name);
+  EXPECT_EQ(again.channels.at(0).values, turned.traces[0].values) << "turned once only";
+}
+
+TEST(IsoMmeWriter, ForeignChannelsGetACodeByWhatTheyMeasure) {
+  const test::TempDir dir;
+  std::vector<std::string> notes;
+  const TraceSet set = read_traces(dir.file("a.csv", "time_s,left_g,F [kN]\n0,1,2\n1,2,3\n"));
+  const auto channels = iso_mme_channels(set, notes);
   EXPECT_EQ(channels[0].code, "100000000100AC00");
   EXPECT_EQ(channels[1].code, "100000000200FO00");
+  EXPECT_THAT(notes, IsEmpty());
+}
+
+TEST(IsoMmeWriter, ChannelsThatCannotBeWrittenAreLeftOutWithANote) {
+  const test::TempDir dir;
+  const std::string path = dir.file("a.csv", "time_s,k_n_per_m,left_g,right_g\n0,1,2,3\n1,2,3,4\n");
+  const IsoMmeTest test =
+      make_iso_mme_test(read_traces(path, {.channels = {"k*", "left*"}, .columns = "", .units = ""}), "run");
+  ASSERT_EQ(test.channels.size(), 1u);
+  EXPECT_EQ(test.channels[0].name, "left_g");
+  EXPECT_THAT(test.notes, ElementsAre("left out: channel 2 k_n_per_m: ISO-MME has no code for stiffness",
+                                      "left out: channel 4 right_g: its samples are not there"));
   const TraceSet stiff = read_traces(dir.file("b.csv", "time_s,k_n_per_m\n0,1\n1,2\n"));
-  EXPECT_THAT([&] { iso_mme_channels(stiff); },
-              ThrowsMessage<InvalidInput>(
-                  HasSubstr("b.csv: channel 2 k_n_per_m: ISO-MME has no code for stiffness; leave it out")));
-  const TraceSet unread = read_traces(dir.path("a.csv"), {.channels = {"F"}, .columns = "", .units = ""});
-  EXPECT_THAT([&] { iso_mme_channels(unread); }, ThrowsMessage<InvalidInput>(HasSubstr("its samples are not there")));
+  EXPECT_THAT([&] { make_iso_mme_test(stiff, "run"); },
+              ThrowsMessage<InvalidInput>(HasSubstr("b.csv: no channel can be written as ISO-MME: channel 2 k_n_per_m: "
+                                                    "ISO-MME has no code for stiffness")));
 }
 
 TEST(IsoMmeWriter, WhatCannotBeWrittenIsRefused) {

@@ -112,21 +112,52 @@ TEST(NhtsaRecord, MoreSamplesThanDeclaredAreSaid) {
   EXPECT_EQ(set.traces[0].values.size(), 5u);
 }
 
-TEST(NhtsaRecord, ALastLineWithoutEndIsTakenOnlyWhenItIsSurelyWhole) {
-  const test::TempDir dir;
-  const auto read = [&](const std::string& samples) {
-    dir.file("v01.001", samples);
-    return read_traces(dir.file("v01.EV5", header_text({{.unit = "NWT", .last = "0"}})));
-  };
-  EXPECT_THAT(read("1.25\n2.25\n3.25").traces[0].values, ElementsAre(1.25, 2.25, 3.25));
-  for (const char* cut : {"1.25\n2.25\n3.2", "1.25\n2.25\n3.", "1.25\n2.25\n3", "1.25\n2.25\n-"}) {
-    const TraceSet set = read(cut);
-    EXPECT_THAT(set.traces[0].values, ElementsAre(1.25, 2.25)) << cut;
+/// A test of one channel in NWT, whose file has some lines and then one without end.
+class LastLine : public testing::Test {
+ protected:
+  [[nodiscard]] TraceSet read(const std::string& line, const std::string& last, int lines = 20) const {
+    std::string samples;
+    for (int i = 0; i < lines; ++i) samples += line;
+    dir.file("v01.001", samples + last);
+    return read_traces(
+        dir.file("v01.EV5", header_text({{.unit = "NWT", .first = "0", .last = std::to_string(lines)}})));
+  }
+  test::TempDir dir;
+};
+
+TEST_F(LastLine, IsTakenOnlyWhenItIsSurelyWhole) {
+  EXPECT_EQ(read("1.25\n", "3.25").traces[0].values.back(), 3.25);
+  EXPECT_THAT(read("1.25\n", "3.25").warnings, testing::IsEmpty());
+  EXPECT_EQ(read("1.25E+01\n", "3.25E+02").traces[0].values.size(), 21u);
+  for (const char* cut : {"3.2", "3.", "3", "-"}) {
+    const TraceSet set = read("1.25\n", cut);
+    EXPECT_EQ(set.traces[0].values.size(), 20u) << cut;
     EXPECT_THAT(set.warnings, ElementsAre(HasSubstr("v01.001: its last line has no end and may be cut short"))) << cut;
     EXPECT_EQ(set.traces[0].problem, "") << cut;
   }
-  EXPECT_THAT(read("1\n2\n3").traces[0].values, ElementsAre(1, 2)) << "may be 3 of 35";
-  EXPECT_THAT(read("1.25\n2.2").traces[0].problem, HasSubstr("truncated: 1 of the 3 samples"));
+  EXPECT_THAT(read("1.25\n", "2.2", 1).traces[0].values, ElementsAre(1.25));
+}
+
+TEST_F(LastLine, IsInDoubtWhereItsFormProvesNothing) {
+  EXPECT_EQ(read("12\n", "13").traces[0].values.size(), 20u) << "may be 13 of 135";
+  EXPECT_EQ(read("1.25E+01\n", "3.25E+0").traces[0].values.size(), 20u) << "E+0 of E+02";
+  EXPECT_EQ(read("1.25E5\n", "3.25E1").traces[0].values.size(), 20u) << "E1 of E10";
+  EXPECT_EQ(read("1.25\n", "3.25", 19).traces[0].values.size(), 19u) << "too few lines to know their form";
+  dir.file("v01.001", "1.125\n2.25\n3.25");
+  EXPECT_THAT(read_traces(dir.path("v01.EV5")).traces[0].values, ElementsAre(1.125, 2.25)) << "as short as they can be";
+}
+
+TEST_F(LastLine, OfTimesAndValuesIsJudgedByItsValue) {
+  const test::NhtsaRecord record{.first = "-10", .last = "20"};
+  const std::string rows = test::sample_rows(record, [](double t) { return 1e3 * t; }),
+                    header = dir.file("v01.EV5", header_text({record}));
+  const auto samples = [&](std::size_t cut) {
+    dir.file("v01.001", "TIME (SEC)\tX (G'S)\n" + rows.substr(0, rows.size() - cut));
+    return read_traces(header).traces[0].values.size();
+  };
+  EXPECT_EQ(samples(1), 31u);
+  EXPECT_EQ(samples(2), 30u);
+  EXPECT_EQ(samples(12), 30u) << "only its time is left";
 }
 
 TEST(NhtsaRecord, TimesOfAFileMustIncrease) {

@@ -48,7 +48,7 @@ TEST(Nhtsa, HeaderTellsMassSpeedAndMeaningOfChannels) {
 
 TEST(Nhtsa, OneValueALineTakesItsTimesFromTheHeader) {
   const test::TempDir dir;
-  dir.file("v01.001", "1.0\r\n2.0\r\n3.0\r\n4.0\r\n5.0");
+  dir.file("v01.001", "1.0\r\n2.0\r\n3.0\r\n4.0\r\n5.0\r\n");
   const TraceSet set =
       read_traces(dir.file("v01.ev5", header_text({{.unit = "MM", .first = "-1", .last = "3", .step = "80"}})));
   EXPECT_THAT(*set.traces[0].time_s, ElementsAre(-8e-5, 0.0, 8e-5, 16e-5, 24e-5));
@@ -122,6 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadChannel{"failed", {.data_status = "CF"}, kFiveSamples, "the channel failed (DASTAT CF)", true},
         BadChannel{"questionable", {.data_status = "QD"}, kFiveSamples, "the data are questionable (DASTAT QD)", true},
         BadChannel{"not_recorded", {.data_status = "NO"}, nullptr, "no data were recorded (DASTAT NO)", false},
+        BadChannel{"over_a_length", {.x_unit = "MM"}, kFiveSamples, "its x is in MM, not a time", true},
         BadChannel{"absent", {}, nullptr, "its file v01.001 is not beside the header", false},
         BadChannel{"truncated", {.last = "7"}, kFiveSamples, "truncated: 5 of the 10 samples", true},
         BadChannel{"empty", {}, "", "v01.001: the file is empty", false},

@@ -12,6 +12,7 @@
 
 #include "support/random.hpp"
 #include "support/temp_dir.hpp"
+#include "support/uds_writer.hpp"
 
 namespace crashsim {
 namespace {
@@ -23,70 +24,6 @@ using testing::Pair;
 using testing::ThrowsMessage;
 
 constexpr double kG = 9.80665;
-
-/// Writes a UDS-1992 file record by record, in one of its number formats.
-class UdsWriter {
- public:
-  explicit UdsWriter(std::string format) : format_(std::move(format)) {}
-
-  UdsWriter& text(std::string_view value, std::size_t length) {
-    record_ += std::string(value.substr(0, length)) + std::string(length - std::min(length, value.size()), ' ');
-    return *this;
-  }
-  UdsWriter& integer(std::int32_t value) { return word(static_cast<std::uint32_t>(value)); }
-  UdsWriter& real(float value) {
-    if (format_ != "VAX") return word(std::bit_cast<std::uint32_t>(value));
-    int exponent = 0;
-    const double fraction = std::frexp(std::abs(static_cast<double>(value)), &exponent);  // 0.5 <= fraction < 1
-    if (value == 0.0F) return word(0);
-    const auto mantissa = static_cast<std::uint32_t>(std::ldexp(fraction, 24)) & 0x7fffffU;
-    const std::uint32_t bits =
-        (value < 0 ? 0x80000000U : 0U) | (static_cast<std::uint32_t>(exponent + 128) << 23) | mantissa;
-    return word((bits << 16) | (bits >> 16));
-  }
-  UdsWriter& end() {
-    record_.resize(512, '\0');
-    file_ += record_;
-    record_.clear();
-    return *this;
-  }
-
-  UdsWriter& header(int channels = 1, std::string_view version = "UDS-1992") {
-    text(version, 12).integer(channels).text("Y", 10).text(format_, 5).text("MET", 3).text("VEHICLE DB", 15);
-    integer(7201).text("7201", 12).text("SMALL CAR", 70).text("LAB", 25).text("REF", 10).text("VTB", 3);
-    integer(0).real(57.6F);
-    return component(1).real(120.0F).real(1).real(2).real(36).real(40).real(300).text("1", 1).end();
-  }
-  UdsWriter& component(int number) {
-    integer(number).text("VE", 2).text("CAR", 30).text("TOYOTA", 15).text("CAMRY", 25).integer(2018).text("SEDAN", 25);
-    text("4CIF", 4).real(1500.0F).real(57.6F).text("H3", 6).integer(0).text("M", 1).real(0).text("50", 2);
-    return text("3 POINT BELT", 20).text("", 20);
-  }
-  UdsWriter& curve(int number, int first, int last, std::string_view form = "Y", std::string_view unit = "G'S",
-                   std::string_view status = "AS MEASURED", std::string_view x_unit = "SECONDS") {
-    text("CURVE HDR", 12).integer(1).text(form, 10).integer(number).text("1", 12).text("FLOORPAN - LEFT REAR", 30);
-    text("NA", 2).integer(0).integer(0).integer(0).text("XG", 2).text("ACCELERATION", 20).text(unit, 20);
-    text("TIME", 20).text(x_unit, 20).text(status, 20).text("TIME SERIES", 20).text("LEFT REAR SEAT X", 70);
-    return integer(first).integer(last).real(0.0001F).real(57.6F).real(1650).end();
-  }
-  UdsWriter& data(std::string_view mark, const std::vector<float>& values) {
-    for (std::size_t i = 0; i < values.size(); i += 125) {
-      text(mark, 12);
-      for (std::size_t k = i; k < std::min(values.size(), i + 125); ++k) real(values[k]);
-      end();
-    }
-    return *this;
-  }
-  [[nodiscard]] const std::string& file() const { return file_; }
-
- private:
-  UdsWriter& word(std::uint32_t bits) {
-    for (int i = 0; i < 4; ++i) record_ += static_cast<char>((bits >> (format_ == "SUN" ? 24 - 8 * i : 8 * i)) & 0xffU);
-    return *this;
-  }
-
-  std::string format_, record_, file_;
-};
 
 std::vector<float> random_values(test::Random& random, std::size_t count) {
   std::vector<float> values;
@@ -104,9 +41,11 @@ TEST_P(Uds, WhatIsWrittenComesBackExactly) {
   test::Random random(1);
   for (const std::size_t count : {1U, 124U, 125U, 126U, 1000U}) {
     const std::vector<float> values = random_values(random, count);
-    const std::string path = dir.file(
-        "v07201_001aa0.uds",
-        UdsWriter(GetParam()).header().curve(93, -20, static_cast<int>(count) - 21).data("Y DATA", values).file());
+    const std::string path = dir.file("v07201_001aa0.uds", test::UdsWriter(GetParam())
+                                                               .header()
+                                                               .curve(93, -20, static_cast<int>(count) - 21)
+                                                               .data("Y DATA", values)
+                                                               .file());
     const TraceSet set = read_traces(path);
     const Trace& trace = set.traces.at(0);
     EXPECT_EQ(set.format, "nhtsa_uds");
@@ -130,9 +69,14 @@ TEST_P(Uds, WhatIsWrittenComesBackExactly) {
 INSTANTIATE_TEST_SUITE_P(Formats, Uds, testing::Values("IEEE", "SUN", "VAX"));
 
 TEST_F(UdsFile, HeaderFieldsArePartOfTheMetadata) {
-  const TraceSet set = read_traces(dir.file(
-      "a.uds",
-      UdsWriter("IEEE").header().text("CMP-2 HDR", 12).component(2).end().curve(7, 0, 0).data("Y DATA", {1}).file()));
+  const TraceSet set = read_traces(dir.file("a.uds", test::UdsWriter("IEEE")
+                                                         .header()
+                                                         .text("CMP-2 HDR", 12)
+                                                         .component(2)
+                                                         .end()
+                                                         .curve(7, 0, 0)
+                                                         .data("Y DATA", {1})
+                                                         .file()));
   EXPECT_THAT(set.metadata, Contains(Pair("TEST.TSTNO", "7201")));
   EXPECT_THAT(set.metadata, Contains(Pair("COMPONENT[1].MODEL", "CAMRY")));
   EXPECT_THAT(set.metadata, Contains(Pair("COMPONENT[2].VEHTWT", "1500")));
@@ -143,14 +87,15 @@ TEST_F(UdsFile, HeaderFieldsArePartOfTheMetadata) {
 TEST_F(UdsFile, PairsHaveTheirOwnTimes) {
   const auto read = [&](const std::vector<float>& x) {
     return read_traces(dir.file(
-        "a.uds", UdsWriter("IEEE").header().curve(7, 1, 3, "X-Y").data("Y DATA", {1, 2, 3}).data("X DATA", x).file()));
+        "a.uds",
+        test::UdsWriter("IEEE").header().curve(7, 1, 3, "X-Y").data("Y DATA", {1, 2, 3}).data("X DATA", x).file()));
   };
   EXPECT_THAT(*read({0.0F, 0.5F, 1.5F}).traces[0].time_s, ElementsAre(0.0, 0.5, 1.5));
   EXPECT_THAT(read({0.0F, 0.5F, 0.5F}).traces[0].problem, HasSubstr("time does not increase after sample 2"));
 }
 
 TEST_F(UdsFile, ChannelsFollowOneAnother) {
-  const std::string file = UdsWriter("SUN")
+  const std::string file = test::UdsWriter("SUN")
                                .header(2)
                                .curve(7, 0, 1)
                                .data("Y DATA", {1, 2})
@@ -164,33 +109,47 @@ TEST_F(UdsFile, ChannelsFollowOneAnother) {
   EXPECT_THAT(set.warnings, testing::IsEmpty());
 }
 
+TEST_F(UdsFile, OfSeveralLongitudinalChannelsNoneIsTakenForTheCompartments) {
+  const std::string path = dir.file("a.uds", test::UdsWriter("IEEE")
+                                                 .header(2)
+                                                 .curve(7, 0, 1)
+                                                 .data("Y DATA", {1, 2})
+                                                 .curve(8, 0, 1)
+                                                 .data("Y DATA", {3, 4})
+                                                 .file());
+  EXPECT_THAT(read_traces(path).compartment_x, testing::IsEmpty());
+  EXPECT_THAT([&] { read_pulse(path); },
+              ThrowsMessage<InvalidInput>(HasSubstr("say which channels measure the vehicle's longitudinal motion")));
+}
+
 TEST_F(UdsFile, WhatCannotBeTakenAsTimeHistorySaysWhy) {
-  const auto problem = [&](UdsWriter writer) {
+  const auto problem = [&](test::UdsWriter writer) {
     return read_traces(dir.file("a.uds", writer.file())).traces[0].problem;
   };
-  EXPECT_THAT(problem(UdsWriter("IEEE").header().curve(7, 0, 0, "Y", "G'S", "CHANNEL FAILED").data("Y DATA", {1})),
-              HasSubstr("the channel failed (STATUS CHANNEL FAILED)"));
-  EXPECT_THAT(problem(UdsWriter("IEEE").header().curve(7, 0, 0, "X-Y", "NEWTONS", "", "MILLIMETERS")),
+  EXPECT_THAT(
+      problem(test::UdsWriter("IEEE").header().curve(7, 0, 0, "Y", "G'S", "CHANNEL FAILED").data("Y DATA", {1})),
+      HasSubstr("the channel failed (STATUS CHANNEL FAILED)"));
+  EXPECT_THAT(problem(test::UdsWriter("IEEE").header().curve(7, 0, 0, "X-Y", "NEWTONS", "", "MILLIMETERS")),
               HasSubstr("its x is in MILLIMETERS, not a time"));
-  EXPECT_THAT(problem(UdsWriter("IEEE").header().curve(7, 5, 4)), HasSubstr("NFP = 5 is above NLP = 4"));
-  EXPECT_THAT(problem(UdsWriter("IEEE").header().curve(7, -2000000000, 2000000000).data("Y DATA", {1})),
+  EXPECT_THAT(problem(test::UdsWriter("IEEE").header().curve(7, 5, 4)), HasSubstr("NFP = 5 is above NLP = 4"));
+  EXPECT_THAT(problem(test::UdsWriter("IEEE").header().curve(7, -2000000000, 2000000000).data("Y DATA", {1})),
               HasSubstr("125 of 4000000001 samples are there"));
 }
 
 TEST_F(UdsFile, OtherVersionsAndFormatsAreRefused) {
-  const auto refuses = [&](UdsWriter writer, const char* message) {
+  const auto refuses = [&](test::UdsWriter writer, const char* message) {
     EXPECT_THAT([&] { read_traces(dir.file("a.uds", writer.file())); },
                 ThrowsMessage<InvalidInput>(HasSubstr(message)));
   };
-  refuses(UdsWriter("IEEE").header(1, "UDS-1991"), "download the EV5 or ASCII version");
-  refuses(UdsWriter("CRAY").header(), "byte 26: NUMFORM = 'CRAY': must be IEEE, SUN or VAX");
-  refuses(UdsWriter("IEEE").header(), "no curve header");
-  refuses(UdsWriter("IEEE").header().text("W DATA", 12).end(), "byte 512: 'W DATA' is no record of a UDS file");
+  refuses(test::UdsWriter("IEEE").header(1, "UDS-1991"), "download the EV5 or ASCII version");
+  refuses(test::UdsWriter("CRAY").header(), "byte 26: NUMFORM = 'CRAY': must be IEEE, SUN or VAX");
+  refuses(test::UdsWriter("IEEE").header(), "no curve header");
+  refuses(test::UdsWriter("IEEE").header().text("W DATA", 12).end(), "byte 512: 'W DATA' is no record of a UDS file");
 }
 
 TEST_F(UdsFile, AFileCutAnywhereGivesWhatIsBeforeTheCut) {
   test::Random random(5);
-  const std::string file = UdsWriter("IEEE")
+  const std::string file = test::UdsWriter("IEEE")
                                .header(2)
                                .curve(7, 0, 299)
                                .data("Y DATA", random_values(random, 300))

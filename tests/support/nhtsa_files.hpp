@@ -17,13 +17,13 @@ struct NhtsaRecord {
   int vehicle = 1;
   std::string sensor = "AC", occupant = "NA", axis = "XG", unit = "G'S";
   std::string first = "-2", last = "2", step = "100", data_status = "AM", channel_status = "P";
-  std::string initial_speed = "50", range = "800";
+  std::string initial_speed = "50", range = "800", x_unit = "SEC";
 };
 
 inline std::string record_line(const NhtsaRecord& r) {
-  return fmt::format("{}|{}|{}|{}|{}|{}|SEC|{}|2800|ACME|01/JAN/2020|{}|10|{}|{}|{}|{}|{}|{}|{}\n", r.vehicle, r.curve,
-                     r.sensor, r.occupant, r.attachment, r.axis, r.unit, r.range, r.initial_speed, r.first, r.last,
-                     r.step, r.data_status, r.channel_status, r.comment);
+  return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|2800|ACME|01/JAN/2020|{}|10|{}|{}|{}|{}|{}|{}|{}\n", r.vehicle, r.curve,
+                     r.sensor, r.occupant, r.attachment, r.axis, r.x_unit, r.unit, r.range, r.initial_speed, r.first,
+                     r.last, r.step, r.data_status, r.channel_status, r.comment);
 }
 
 inline std::string vehicle_line(int number = 1, const std::string& mass = "1500", const std::string& speed = "57.6") {

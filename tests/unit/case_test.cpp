@@ -192,7 +192,7 @@ TEST(RunCase, TheFiniteElementCarGivesAUsableModel) {
   EXPECT_LE(result.comparisons[0].result.end_s, result.pulse->t_m_s);
   EXPECT_THAT(result.input_files, ElementsAre(kData + "/fe-car/C56.csv"));
   std::vector<std::string> names;
-  for (const CaseFile& file : case_files(study, result)) names.push_back(file.name);
+  for (const FileText& file : case_files(study, result)) names.push_back(file.name);
   EXPECT_EQ(names, case_file_names(study));
 }
 
