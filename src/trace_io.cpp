@@ -76,6 +76,11 @@ TraceSet read_chosen(const std::string& path, const ReadOptions& options, const 
   refuse(file);
 }
 
+std::size_t most_channels(std::size_t file_bytes) {
+  constexpr std::size_t kTraceBytes = 400, kAlways = std::size_t{48} << 20;
+  return (3 * file_bytes + kAlways) / kTraceBytes;
+}
+
 std::vector<std::size_t> channels_named_by(const ReadOptions& options, const TraceSet& catalogue) {
   std::vector<bool> named(catalogue.traces.size(), options.channels.empty());
   for (const std::string& selector : options.channels)
@@ -127,11 +132,10 @@ TraceSet read_traces(const std::string& path, const ReadOptions& options) {
 
 TraceFileInfo inspect_traces(const std::string& path, const ReadOptions& options) {
   std::vector<std::size_t> chosen;
-  TraceFileInfo info{io::read_chosen(path, options,
-                                     [&](const TraceSet& catalogue) {
-                                       return chosen = io::channels_named_by(options, catalogue);
-                                     }),
-                     {}};
+  TraceFileInfo info{
+      io::read_chosen(path, options,
+                      [&](const TraceSet& catalogue) { return chosen = io::channels_named_by(options, catalogue); }),
+      {}};
   const std::vector<std::string> findings = check_redundant(info.set);
   info.set.warnings.insert(info.set.warnings.end(), findings.begin(), findings.end());
   for (const std::size_t i : chosen) info.channels.push_back(describe(info.set.traces[i]));

@@ -158,6 +158,9 @@ bool detects(const InputFile& file) {
 
 TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& choose) {
   const CsvLayout layout = find_layout(file.bytes()).value();
+  if (const std::size_t most = most_channels(file.bytes().size()); layout.columns > most)
+    throw InvalidInput(fmt::format("{}:{}: a row of more than {} cells, more channels than fit memory", file.path(),
+                                   layout.data_line, most));
   const std::vector<ColumnHead> heads = column_heads(layout, options, file.path());
   const std::size_t time_column = find_time_column(heads, file.path());
   const double to_seconds = time_factor(heads[time_column], file.path());

@@ -10,6 +10,7 @@
 #include <crashsim/error.hpp>
 #include <crashsim/units.hpp>
 
+#include "io/reader.hpp"
 #include "number.hpp"
 #include "text.hpp"
 
@@ -93,12 +94,23 @@ bool take_separator(std::string_view& line, char separator) {
   return true;
 }
 
-std::vector<std::string_view> split_cells(std::string_view line, char separator) {
+/// The first cells of a line, no more than `most`.
+std::vector<std::string_view> split_cells(std::string_view line, char separator, std::size_t most) {
   std::vector<std::string_view> cells;
   line = separator == ' ' ? trimmed(line) : line;
   do cells.push_back(take_cell(line, separator));
-  while (take_separator(line, separator));
+  while (take_separator(line, separator) && cells.size() < most);
   return cells;
+}
+
+std::size_t count_cells(std::string_view line, char separator) {
+  std::size_t count = 0;
+  line = separator == ' ' ? trimmed(line) : line;
+  do {
+    take_cell(line, separator);
+    ++count;
+  } while (take_separator(line, separator));
+  return count;
 }
 
 /// The number in a cell: empty cells are NaN, and unless ',' separates it may be the decimal mark.
@@ -111,10 +123,10 @@ std::optional<double> cell_number(std::string_view cell, char separator) {
 }
 
 /// The separator that makes a row of at least two numbers of a line.
-std::optional<char> separator_of_numbers(std::string_view line) {
+std::optional<char> separator_of_numbers(std::string_view line, std::size_t most) {
   for (const char separator : {';', '\t', ',', ' '}) {
     if (separator != ' ' && line.find(separator) == std::string_view::npos) continue;
-    const auto cells = split_cells(line, separator);
+    const auto cells = split_cells(line, separator, most);
     const auto is_number = [&](std::string_view cell) { return cell_number(cell, separator).has_value(); };
     if (cells.size() < 2 || cells.front().empty()) continue;
     if (std::all_of(cells.begin(), cells.end(), is_number)) return separator;
@@ -129,8 +141,8 @@ struct TextLine {
 };
 
 /// Cells of a header; none when they do not fit the numbers.
-std::vector<std::string> header_cells(const TextLine& line, const CsvLayout& layout) {
-  auto cells = split_cells(line.text, layout.separator);
+std::vector<std::string> header_cells(const TextLine& line, const CsvLayout& layout, std::size_t most) {
+  auto cells = split_cells(line.text, layout.separator, most);
   while (cells.size() > layout.columns && cells.back().empty()) cells.pop_back();
   if (cells.size() != layout.columns) return {};
   return {cells.begin(), cells.end()};
@@ -149,20 +161,21 @@ bool are_units(const std::vector<std::string>& cells) {
 
 /// Names, and units where a row of them stands under the names, from the lines before the numbers: the last that are
 /// no comments, or else the last comment where it has as many cells.
-void find_header(const std::vector<TextLine>& before, std::string_view last_comment, CsvLayout& layout) {
+void find_header(const std::vector<TextLine>& before, std::string_view last_comment, std::size_t most,
+                 CsvLayout& layout) {
   if (before.empty()) {
-    layout.names = header_cells({without_mark(last_comment), 0}, layout);
+    layout.names = header_cells({without_mark(last_comment), 0}, layout, most);
     return;
   }
-  layout.names = header_cells(before.back(), layout);
+  layout.names = header_cells(before.back(), layout, most);
   if (layout.names.empty()) {
     layout.odd_line = before.back().number;
-    const auto cells = split_cells(before.back().text, layout.separator);
+    const auto cells = split_cells(before.back().text, layout.separator, most);
     layout.odd_names.assign(cells.begin(), cells.end());
     return;
   }
   if (before.size() < 2 || !are_units(layout.names)) return;
-  const auto names = header_cells(before[before.size() - 2], layout);
+  const auto names = header_cells(before[before.size() - 2], layout, most);
   if (names.empty()) return;
   layout.units = std::exchange(layout.names, names);
   std::transform(layout.units.begin(), layout.units.end(), layout.units.begin(), without_brackets);
@@ -171,7 +184,7 @@ void find_header(const std::vector<TextLine>& before, std::string_view last_comm
 [[noreturn]] void refuse_row(const std::string& path, std::size_t line, std::string_view row, const CsvLayout& layout) {
   throw InvalidInput(
       fmt::format("{}:{}: {} cells, but the rows before have {}: the row is ragged or the file truncated", path, line,
-                  split_cells(row, layout.separator).size(), layout.columns));
+                  count_cells(row, layout.separator), layout.columns));
 }
 
 /// Reads the cells of one row into `row`, those that are wanted.
@@ -224,6 +237,7 @@ std::size_t estimate_rows(std::string_view rows, std::size_t columns) {
 
 std::optional<CsvLayout> find_layout(std::string_view text) {
   if (text.substr(0, kBinarySample).find('\0') != std::string_view::npos) return std::nullopt;
+  const std::size_t most = most_channels(text.size()) + 1;
   CsvLayout layout;
   std::vector<TextLine> before;
   std::string_view last_comment;
@@ -235,17 +249,17 @@ std::optional<CsvLayout> find_layout(std::string_view text) {
       if (auto pair = key_and_value(lines.line())) layout.comments.push_back(std::move(*pair));
       continue;
     }
-    if (const auto separator = separator_of_numbers(lines.line())) {
+    if (const auto separator = separator_of_numbers(lines.line(), most)) {
       layout.separator = *separator;
-      const auto cells = split_cells(lines.line(), *separator);
+      const auto cells = split_cells(lines.line(), *separator, most);
       layout.columns = cells.size();
       layout.data_offset = lines.offset();
       layout.data_line = lines.number();
-      find_header(before, last_comment, layout);
+      find_header(before, last_comment, most, layout);
       if (layout.odd_line != 0 && cells.back().empty()) {  // rows end with a separator, the header does not
         layout.odd_line = 0;
         --layout.columns;
-        find_header(before, last_comment, layout);
+        find_header(before, last_comment, most, layout);
       }
       return layout;
     }

@@ -25,15 +25,14 @@ struct CsvLayout {
 };
 
 /// Finds the first row of at least two numbers and what stands before it; empty when there is none within the first
-/// lines, or the text is binary.
+/// lines, or the text is binary. Of a row with more cells than most_channels() only one more is counted.
 std::optional<CsvLayout> find_layout(std::string_view text);
 
 /// Reads the wanted columns; the others stay empty. Empty cells are NaN. With any separator but ',' a decimal comma is
 /// understood.
 /// @param time_column its numbers must increase.
 /// @throws InvalidInput with path and line when a row has too few or too many cells, a wanted cell is
-///         no number, or time
-///         does not increase.
+///         no number, or time does not increase.
 std::vector<std::vector<double>> read_columns(std::string_view text, const CsvLayout& layout,
                                               const std::vector<bool>& wanted, std::size_t time_column,
                                               const std::string& path);

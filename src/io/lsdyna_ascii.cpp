@@ -83,6 +83,11 @@ void read_lsdyna_lines(const LsdynaLines& database, const LsdynaInput& input, Tr
   LsdynaSlots slots(input.text);
   CompleteLines first(input.text, input.states);
   database.parse(first, slots);
+  if (slots.too_many())
+    throw InvalidInput(
+        fmt::format("{}: the first state has more than {} values, more channels than fit memory: the "
+                    "file is damaged",
+                    set.path, most_channels(input.text.size())));
   for (const LsdynaSlot& slot : slots.slots()) set.traces.push_back(database.describe(slot, input.header));
   if (set.traces.empty()) throw InvalidInput(fmt::format("{}: no whole state", set.path));
 

@@ -107,12 +107,6 @@ void describe_run(Run& run) {
 /// "rwforc" for the branch "rwforc/forces": its walls' total forces are what other files call rwforc.
 std::string database_name(const std::string& path) { return path == "rwforc/forces" ? "rwforc" : path; }
 
-/// How many traces a run may have: a damaged file must not make more of them than memory holds.
-std::size_t most_channels(const Run& run) {
-  constexpr std::size_t kTraceBytes = 400, kAlways = std::size_t{48} << 20;
-  return (3 * run.bytes + kAlways) / kTraceBytes;
-}
-
 /// Appends the traces of one variable.
 void list_series(const Database& database, Channel channel, const std::vector<BinoutEntity>* entities, Run& run) {
   const BinoutSeries& series = database.branch->series[channel.series];
@@ -152,7 +146,7 @@ void list_database(Database database, Run& run) {
     const std::size_t present = records_of(series, database.history).size();
     if (present == 0) continue;
     if (present < states) odd.gaps.push_back(fmt::format("{} (in {} of {})", series.name, present, states));
-    if (run.channels.size() + series.count > most_channels(run)) {
+    if (run.channels.size() + series.count > most_channels(run.bytes)) {
       odd.too_many.push_back(fmt::format("{} ({})", series.name, series.count));
       continue;
     }

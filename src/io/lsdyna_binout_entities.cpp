@@ -12,15 +12,27 @@ namespace crashsim::io {
 namespace {
 
 /// Single values that belong to the whole model even in a database of one entity.
-constexpr std::string_view kOfTheModel[] = {
-    "cycle",         "num_nodal", "max_brick_mass", "brick_id",    "max_shell_mass", "shell_id",
-    "max_beam_mass", "beam_id",   "x_resultant",    "y_resultant", "z_resultant",    "total_x",
-    "total_y",       "total_z",   "x_total",        "y_total",     "z_total",        "etotal"};
+constexpr std::string_view kOfTheModel[] = {"cycle",          "num_nodal",      "max_brick_mass",
+                                            "brick_id",       "max_shell_mass", "shell_id",
+                                            "max_beam_mass",  "beam_id",        "max_thick_shell_mass",
+                                            "thick_shell_id", "x_resultant",    "y_resultant",
+                                            "z_resultant",    "total_x",        "total_y",
+                                            "total_z",        "x_total",        "y_total",
+                                            "z_total",        "xtotal",         "ytotal",
+                                            "ztotal",         "etotal"};
 
-constexpr std::string_view kStateIds = "/ids";  // no constant's name has a slash
+constexpr std::string_view kStateIds = "/ids", kWalls = "/walls";  // no constant's name has a slash
 
 bool is_of_the_model(std::string_view variable) {
   return std::find(std::begin(kOfTheModel), std::end(kOfTheModel), variable) != std::end(kOfTheModel);
+}
+
+/// Whether a list of ids is called after a variable: "force_ids" after "x_force".
+bool is_called_after(std::string_view variable, std::string_view list) {
+  constexpr std::string_view kEnd = "_ids";
+  if (!list.ends_with(kEnd)) return false;
+  list.remove_suffix(kEnd.size());
+  return variable.find(list) != std::string_view::npos || (variable == "ring_slip" && list == "slipring");
 }
 
 /// Ids are whole numbers, whatever their type.
@@ -49,18 +61,20 @@ void BinoutEntities::read_titles() {
 }
 
 /// The list of ids that has as many as the variable has values: the state's own, the one named after the variable
-/// ("force_ids"), "ids", or any other; "" when there is none.
+/// ("force_ids"), "ids", or the only other; "" when there is none.
 std::string BinoutEntities::key_of(const BinoutSeries& series) const {
   const auto own = branch_.series_by_name.find("ids");
   if (own != branch_.series_by_name.end() && branch_.series[own->second].count == series.count)
     return std::string(kStateIds);
   std::string key;
+  std::size_t others = 0;
   for (const auto& [name, constant] : branch_.constants) {
     if (!name.ends_with("ids") || name == "legend_ids" || constant.variable.count != series.count) continue;
-    if (name.ends_with("_ids") && series.name.find(name.substr(0, name.size() - 4)) != std::string::npos) return name;
+    if (is_called_after(series.name, name)) return name;
+    if (name != "ids") ++others;
     if (key.empty() || name == "ids") key = name;
   }
-  return key;
+  return key != "ids" && others > 1 ? "" : key;
 }
 
 std::vector<BinoutEntity> BinoutEntities::numbered(const std::vector<double>& ids) {
@@ -94,7 +108,16 @@ void BinoutEntities::add_sides(std::vector<BinoutEntity>& entities) const {
   }
 }
 
+/// Energies of rigid walls have no ids; they are named as in the ASCII file.
+const std::vector<BinoutEntity>* BinoutEntities::walls(std::size_t count) {
+  std::vector<BinoutEntity>& entities = by_key_[std::string(kWalls)];
+  for (std::size_t i = entities.size() + 1; i <= count; ++i)
+    entities.push_back({fmt::format("{}", i), fmt::format("wall_{}", i)});
+  return &entities;
+}
+
 const std::vector<BinoutEntity>* BinoutEntities::of(const BinoutSeries& series) {
+  if (branch_.path == "glstat" && series.name == "stonewall_energy") return walls(series.count);
   if (series.count == 1 && is_of_the_model(series.name)) return nullptr;
   std::string key = key_of(series);
   if (key.empty() && series.count == 1) return nullptr;

@@ -28,6 +28,7 @@ class BinoutEntities {
  private:
   [[nodiscard]] std::string key_of(const BinoutSeries& series) const;
   std::vector<BinoutEntity> numbered(const std::vector<double>& ids);
+  const std::vector<BinoutEntity>* walls(std::size_t count);
   void read_titles();
   void add_sides(std::vector<BinoutEntity>& entities) const;
 

@@ -84,9 +84,9 @@ void BinoutIndex::count_use(std::size_t bytes) {
   used_bytes_ += bytes;
   if (used_bytes_ > kAlways + file_bytes_)
     throw InvalidInput(
-        fmt::format("binout of {} bytes: more and smaller variables than any LS-DYNA run writes: "
+        fmt::format("{}: binout of {} bytes: more and smaller variables than any LS-DYNA run writes: "
                     "the file is damaged",
-                    file_bytes_));
+                    file_->path(), file_bytes_));
 }
 
 void BinoutIndex::enter(const std::string& directory) {

@@ -11,17 +11,26 @@
 namespace crashsim::io {
 namespace {
 
-// ---- glstat: " kinetic energy.................   9.93442E-06", " stonewall energy...............   0.00000E+00 wall#
-// 1"
+// ---- glstat: " kinetic energy.................   9.93442E-06",
+// " stonewall energy...............   0.00000E+00 wall# 1"
 
 struct DottedLine {
   std::string_view label, rest;
 };
 
+/// The last of the dots that a count touches, as in "time step..12345"; npos when there are none.
+std::size_t dots_before_count(std::string_view words) {
+  const std::size_t end = words.find_last_not_of("0123456789");
+  const bool are_dots =
+      end != std::string_view::npos && end + 1 < words.size() && words.substr(0, end + 1).ends_with("..");
+  return are_dots ? end : std::string_view::npos;
+}
+
 /// Parts a label from what follows its dots; both empty when the line has none.
 DottedLine parse_dotted_line(std::string_view line) {
   const std::string_view words = trimmed(line);
-  const std::size_t end = words.find(". ");
+  std::size_t end = words.find(". ");
+  if (end == std::string_view::npos) end = dots_before_count(words);
   if (end == std::string_view::npos) return {};
   std::string_view label = words.substr(0, end);
   while (label.ends_with('.') || label.ends_with(' ')) label.remove_suffix(1);

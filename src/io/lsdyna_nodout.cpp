@@ -52,12 +52,15 @@ struct Block {
 
 class Nodout {
  public:
-  Nodout(std::string_view text, std::size_t from) : text_(text), start_(text.find(kNodoutMark, from)) {}
+  Nodout(std::string_view text, std::size_t from)
+      : text_(text), most_(most_channels(text.size())), start_(text.find(kNodoutMark, from)) {}
 
   void learn();
   [[nodiscard]] std::vector<Trace> describe(std::string_view database, const LsdynaHeader& header) const;
   void choose(const std::vector<std::size_t>& chosen);
   [[nodiscard]] std::size_t expected_states() const;
+  /// Whether the first state has more values than memory holds; the others were not learned.
+  [[nodiscard]] bool too_many() const { return channels_ > most_; }
   void read(LsdynaStates& states);
   void warn(TraceSet& set) const;
 
@@ -73,9 +76,10 @@ class Nodout {
   [[nodiscard]] std::size_t next_mark(std::size_t from) const { return text_.find(kNodoutMark, from); }
 
   std::string_view text_;
-  std::size_t start_;       // where the first state starts
-  std::size_t length_ = 0;  // of the first state, to the end of its last row
-  std::size_t stride_ = 0;  // from its start to that of the second; 0 when there is none
+  std::size_t most_, channels_ = 0;  // channels that the file may have, and has
+  std::size_t start_;                // where the first state starts
+  std::size_t length_ = 0;           // of the first state, to the end of its last row
+  std::size_t stride_ = 0;           // from its start to that of the second; 0 when there is none
   std::vector<Kind> kinds_;
   std::vector<Block> blocks_;
   std::vector<Row> rows_;
@@ -110,7 +114,7 @@ void Nodout::learn_block(const NodoutHead& head, std::size_t at) {
               rows_.size(),
               0};
   auto place = parse_nodout_row(text_, head.rows);
-  for (; place; place = parse_nodout_row(text_, place->end + 1)) {
+  for (; place && !too_many(); place = parse_nodout_row(text_, place->end + 1)) {
     const std::string_view row = text_.substr(place->at, place->length);
     const std::size_t width = k.row.empty() ? nodout_width(row, columns) : k.width;
     const std::string_view node = nodout_node(row, width, columns);
@@ -122,6 +126,7 @@ void Nodout::learn_block(const NodoutHead& head, std::size_t at) {
     k.width = width;
     length_ = place->end + 1 - start_;
     rows_.push_back({{place->at - start_, place->length, place->end - start_}, kind, node});
+    channels_ += columns;
   }
   block.last = rows_.size();
   if (block.first != block.last) blocks_.push_back(block);
@@ -294,6 +299,7 @@ std::size_t Nodout::read_by_rows(std::size_t at, LsdynaStates& states) {
 void Nodout::read(LsdynaStates& states) {
   for (std::size_t at = start_; at != std::string_view::npos;) {
     if (!read_as_first(at, states)) {
+      states.forget_row();
       at = read_by_rows(at, states);
     } else if (stride_ != 0 && text_.substr(std::min(at + stride_, text_.size())).starts_with(kNodoutMark)) {
       at += stride_;
@@ -316,6 +322,11 @@ bool marks(std::string_view line) { return line.starts_with(kNodoutMark); }
 void read_nodout(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
   Nodout nodout(input.text, input.states);
   nodout.learn();
+  if (nodout.too_many())
+    throw InvalidInput(
+        fmt::format("{}: the first state has more than {} values, more channels than fit memory: the "
+                    "file is damaged",
+                    set.path, most_channels(input.text.size())));
   const std::string name = std::filesystem::path(set.path).filename();  // the content of both is the same
   set.traces = nodout.describe(name.starts_with("nodouthf") ? "nodouthf" : "nodout", input.header);
   if (set.traces.empty()) throw InvalidInput(fmt::format("{}: no whole state", set.path));

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "io/reader.hpp"
+
 namespace crashsim::io {
 namespace {
 
@@ -15,6 +17,8 @@ std::string name_of(LsdynaSlot slot) {
 }
 
 }  // namespace
+
+LsdynaSlots::LsdynaSlots(std::string_view text) : text_(text), most_(most_channels(text.size())) {}
 
 bool LsdynaSlots::next(CompleteLines& lines, std::string_view& line) {
   while (!learned_ && lines.next(line)) {
@@ -60,8 +64,9 @@ void LsdynaSlots::start(double time, std::size_t offset) {
 void LsdynaSlots::start_line(std::string_view time_text, LsdynaSlot first, std::size_t offset) {
   if (time_text == time_text_ && (learning() || open_)) {
     const std::size_t slot = find(first);
-    const bool is_filled = slot != kNone && (learning() || filled_in_[slot] == state_);
-    if (!is_filled) return;
+    // Others may stand twice: some versions of LS-DYNA write them so.
+    const bool begins_again = slot == 0 && (learning() || filled_in_[slot] == state_);
+    if (!begins_again) return;
   }
   time_text_ = time_text;
   double time = 0.0;
@@ -73,6 +78,7 @@ void LsdynaSlots::put(LsdynaSlot slot, double value) {
   if (learned_) return;
   if (learning()) {
     if (index_.emplace(key_of(slot), slots_.size()).second) slots_.push_back(slot);
+    learned_ = too_many();
     return;
   }
   if (!open_) return;
@@ -83,7 +89,10 @@ void LsdynaSlots::put(LsdynaSlot slot, double value) {
   }
   next_ = found + 1;
   put_in_ = line_;
-  if (filled_in_[found] == state_) return;
+  if (filled_in_[found] == state_) {
+    if (repeated_++ == 0) first_repeated_ = fmt::format("{} at time {:g}", name_of(slot), time_);
+    return;
+  }
   filled_in_[found] = state_;
   ++filled_;
   const std::size_t channel = channel_of_[found];
@@ -132,6 +141,9 @@ void LsdynaSlots::warn(TraceSet& set) const {
   if (unknown_ > 0)
     set.warnings.push_back(fmt::format("{}: {} values are not in the first state and were not read, the first {}",
                                        set.path, unknown_, first_unknown_));
+  if (repeated_ > 0)
+    set.warnings.push_back(fmt::format("{}: {} values stand twice in a state, the first {}: the first of each is kept",
+                                       set.path, repeated_, first_repeated_));
 }
 
 }  // namespace crashsim::io

@@ -24,7 +24,7 @@ struct LsdynaSlot {
 /// went on to a later state (an entity may vanish); at the end of the file or before a restart it was cut short.
 class LsdynaSlots {
  public:
-  explicit LsdynaSlots(std::string_view text) : text_(text) {}
+  explicit LsdynaSlots(std::string_view text);
 
   /// The next line of states: preambles and legends of restarted runs are skipped. False at the end, and once the
   /// first state has been learned.
@@ -33,18 +33,20 @@ class LsdynaSlots {
   /// A state starts at a byte.
   void start(double time, std::size_t offset);
   /// A line of values starts that says its time: in the present state, or in a new one when the time is another or the
-  /// state has such a value.
+  /// state's first value begins again.
   void start_line(std::string_view time_text, LsdynaSlot first, std::size_t offset);
   void put(LsdynaSlot slot, double value);
   /// No more states.
   void finish();
 
   [[nodiscard]] const std::vector<LsdynaSlot>& slots() const { return slots_; }
+  /// Whether the first state has more values than memory holds; the others were not learned.
+  [[nodiscard]] bool too_many() const { return slots_.size() > most_; }
   /// How many states there may be, by the size of the first.
   [[nodiscard]] std::size_t expected_states() const;
   /// From now on, states go to `states`. @param chosen slots of its channels.
   void collect(LsdynaStates& states, const std::vector<std::size_t>& chosen);
-  /// Says which values do not stand in the first state and were not read.
+  /// Says which values were not read, as they do not stand in the first state or stand twice in one.
   void warn(TraceSet& set) const;
 
  private:
@@ -55,6 +57,7 @@ class LsdynaSlots {
   void close(std::optional<double> next_time, std::size_t end);
 
   std::string_view text_;
+  std::size_t most_;  // values that a state may have
   std::vector<LsdynaSlot> slots_;
   std::unordered_map<std::string, std::size_t> index_;
   std::size_t first_ = 0, second_ = 0;  // where these states start
@@ -68,8 +71,8 @@ class LsdynaSlots {
   double time_ = 0.0;
   std::string_view time_text_;
   std::size_t offset_ = 0;
-  std::size_t unknown_ = 0;
-  std::string first_unknown_;
+  std::size_t unknown_ = 0, repeated_ = 0;
+  std::string first_unknown_, first_repeated_;
 };
 
 }  // namespace crashsim::io

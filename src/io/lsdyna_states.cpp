@@ -52,15 +52,21 @@ void LsdynaStates::replace_from(double time) {
 void LsdynaStates::keep(double time) {
   if (!times_.empty() && !(time > times_.back())) replace_from(time);
   times_.push_back(time);
+  if (missing_in_row_.count > 0) {
+    if (missing_.count == 0) first_missing_ = first_missing_in_row_;
+    missing_.add(missing_in_row_.count, time);
+    forget_row();
+  }
   if (++pending_ == kBatch) flush();
 }
 
 void LsdynaStates::note_missing(std::size_t channel, double time) {
-  if (missing_.count == 0) first_missing_ = channel;
-  missing_.add(1, time);
+  if (missing_in_row_.count == 0) first_missing_in_row_ = channel;
+  missing_in_row_.add(1, time);
 }
 
 void LsdynaStates::lose(double time, std::size_t from, std::size_t to, const std::string& why, bool at_end) {
+  forget_row();
   if (at_end) {
     cut_ = {time, from, to, why};
     return;

@@ -26,8 +26,10 @@ class LsdynaStates {
   double* row() { return batch_.data() + pending_ * columns_.size(); }
   void keep(double time);
 
-  /// A value is not finite, or does not stand in the file.
+  /// A value of the row is not finite, or does not stand in the file.
   void note_missing(std::size_t channel, double time);
+  /// The row is filled anew: forgets what was noted of it.
+  void forget_row() { missing_in_row_ = {}; }
   /// The state that starts at a byte is not whole. @param at_end whether the file ends in it.
   void lose(double time, std::size_t from, std::size_t to, const std::string& why, bool at_end);
 
@@ -56,8 +58,8 @@ class LsdynaStates {
   std::vector<double> times_, batch_;
   std::size_t pending_ = 0;
   std::vector<std::vector<double>> columns_;
-  Tally replaced_, repeated_, missing_, lost_;
-  std::size_t first_missing_ = 0;
+  Tally replaced_, repeated_, missing_, missing_in_row_, lost_;
+  std::size_t first_missing_ = 0, first_missing_in_row_ = 0;
   std::optional<Loss> first_loss_, cut_;
 };
 

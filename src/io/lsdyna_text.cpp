@@ -11,10 +11,13 @@
 namespace crashsim::io {
 namespace {
 
-constexpr std::string_view kLegendStart = "{BEGIN LEGEND}", kLegendEnd = "{END LEGEND}";
+constexpr std::string_view kLegendStart = "{BEGIN LEGEND", kLegendEnd = "{END LEGEND}";
 constexpr std::string_view kDate = " date ";
 
 bool is_sign(char c) { return c == '-' || c == '+'; }
+
+/// LSTC's l2a leaves out the brace at the end.
+bool starts_legend(std::string_view line) { return trimmed(line).starts_with(kLegendStart); }
 
 /// Where an exponent without its E ends: a sign and three digits, of which no further number can begin.
 const char* end_of_bare_exponent(const char* p, const char* end) {
@@ -96,8 +99,11 @@ bool is_version_line(std::string_view line) {
 }
 
 std::size_t end_of_legend(std::string_view text, const CompleteLines& lines, std::string_view line) {
-  if (trimmed(line) != kLegendStart) return std::string_view::npos;
-  return text.find(kLegendEnd, lines.position());
+  if (!starts_legend(line)) return std::string_view::npos;
+  CompleteLines rest(text, lines.position());
+  for (std::string_view next; rest.next(next) && !starts_legend(next) && !is_version_line(next);)
+    if (trimmed(next) == kLegendEnd) return rest.offset();
+  return std::string_view::npos;
 }
 
 LsdynaHeader parse_lsdyna_header(std::string_view text, std::size_t states) {
@@ -108,8 +114,8 @@ LsdynaHeader parse_lsdyna_header(std::string_view text, std::size_t states) {
   std::string_view before;
   for (std::string_view line; lines.next(line); before = line) {
     const std::string_view words = trimmed(line);
-    if (words == kLegendStart || words == kLegendEnd) {
-      in_legend = words == kLegendStart;
+    if (starts_legend(line) || words == kLegendEnd) {
+      in_legend = words != kLegendEnd;
     } else if (in_legend && !words.empty() && is_digit(words.front())) {
       const std::size_t end = std::min(words.find_first_not_of("0123456789"), words.size());
       header.legend.emplace(words.substr(0, end), trimmed(words.substr(end)));
@@ -117,7 +123,7 @@ LsdynaHeader parse_lsdyna_header(std::string_view text, std::size_t states) {
       const std::size_t date = words.rfind(kDate);
       header.title = trimmed(before);
       header.version = trimmed(words.substr(0, date));
-      header.date = trimmed(words.substr(date + kDate.size()));
+      if (date != std::string_view::npos) header.date = trimmed(words.substr(date + kDate.size()));
     }
   }
   return header;

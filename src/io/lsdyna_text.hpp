@@ -53,7 +53,8 @@ struct LsdynaHeader {
 /// "ls-dyna smp d R13 ... date 07/28/2023", the second line of every file and of what a restarted run appends.
 bool is_version_line(std::string_view line);
 
-/// Where a legend that starts with this line ends in the text; npos when the line starts none, or it has no end.
+/// Where a legend that starts with this line ends in the text; npos when the line starts none, or it has no end before
+/// the next legend or run.
 std::size_t end_of_legend(std::string_view text, const CompleteLines& lines, std::string_view line);
 
 /// Reads what stands in the text before `states`. The result refers to the text.

@@ -39,24 +39,30 @@ std::string numbered_entity(std::string_view name) {
   return with_single_blanks(name.substr(0, at));
 }
 
-/// The name after the entity's number, or the whole when there is none: "TH RWALL 1 Barrier" is "Barrier".
-std::string short_name(const std::string& entity) {
+/// What a column's text says before "var": the title of the group, and the entity.
+struct Entity {
+  std::string group, name;
+};
+
+/// Parts "TH RWALL 1 Barrier" at the number: "TH RWALL" and "Barrier". Without a number the whole is both.
+Entity parse_entity(const std::string& entity) {
   const auto words = split(entity, ' ');
   for (std::size_t i = words.size(); i-- > 1;) {
     if (words[i].empty() || !std::all_of(words[i].begin(), words[i].end(), is_digit)) continue;
     const auto from = static_cast<std::size_t>(words[i].data() - entity.data()) + words[i].size();
     const std::string_view name = trimmed(std::string_view(entity).substr(from));
-    return std::string(name.empty() ? words[i] : name);
+    return {entity.substr(0, from - words[i].size()), std::string(name.empty() ? words[i] : name)};
   }
-  return entity;
+  return {entity, entity};
 }
 
 /// Names the numbered variables of one entity, which stand in a fixed order.
 void name_numbered(const std::string& entity, std::size_t count, std::vector<Head>& heads) {
-  const bool is_wall = to_lower(entity).find("wall") != std::string::npos;
-  const bool in_order = count == (is_wall ? kVariablesOfWalls : kVariablesOfNodes);
+  const auto [group, name] = parse_entity(entity);
+  const bool is_wall = count == kVariablesOfWalls && to_lower(group).find("wall") != std::string::npos;
+  const bool in_order = is_wall || count == kVariablesOfNodes;
   for (std::size_t i = 0; i < count; ++i) {
-    Head head{short_name(entity), fmt::format("var{}", i + 1), Dimension::unknown, std::nullopt};
+    Head head{name, fmt::format("var{}", i + 1), Dimension::unknown, std::nullopt};
     if (in_order) {
       const auto variable = radioss_group_variable(is_wall ? kRadiossWalls : kRadiossNodes, static_cast<int>(i) + 1);
       head.variable = variable.name;
@@ -142,6 +148,7 @@ void mend_global_names(CsvLayout& layout) {
 std::optional<CsvLayout> radioss_layout(const InputFile& file) {
   if (file.is_folder()) return std::nullopt;
   auto layout = find_layout(file.bytes());
+  if (layout && layout->columns > most_channels(file.bytes().size())) return std::nullopt;
   if (layout) mend_global_names(*layout);
   return layout && is_radioss(*layout) ? std::move(layout) : std::nullopt;
 }

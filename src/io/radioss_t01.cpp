@@ -80,9 +80,12 @@ class StateReader {
     times_.reserve(whole_);
     for (std::size_t state = 0; state < whole_; state += kStatesAtOnce) {
       find_usable(state, std::min(state + kStatesAtOnce, whole_));
-      for (Column& column : columns)
+      for (Column& column : columns) {
+        column.values.resize(read_);
         for (const char* usable : usable_)
           column.values.push_back(big_endian_float(usable + column.offset) * column.to_si);
+      }
+      read_ = times_.size();
       if (damaged_at_ != kNowhere) break;
     }
     if (times_.empty())
@@ -97,8 +100,7 @@ class StateReader {
     if (damaged_at_ != kNowhere) {
       warnings.push_back(fmt::format(
           "{}: byte {}: no state where state {} of about {} should be: the file is damaged there, and its last {} "
-          "bytes "
-          "are left out",
+          "bytes are left out",
           path_, header_.bytes + damaged_at_, damaged_at_ / layout_.bytes() + 1, whole_, data_.size() - damaged_at_));
     } else if (end != data_.size()) {
       warnings.push_back(fmt::format(
@@ -106,10 +108,15 @@ class StateReader {
           "bytes are left out",
           path_, header_.bytes + end, whole_, data_.size() - end, layout_.bytes()));
     }
-    if (late_ > 0)
-      warnings.push_back(fmt::format(
-          "{}: byte {}: {} states are not later than those before them, as a restart repeats them: left out", path_,
-          header_.bytes + first_late_, late_));
+    if (replaced_ > 0)
+      warnings.push_back(
+          fmt::format("{}: byte {}: the run was restarted: {} state{} of an earlier run gave way to those "
+                      "from there on",
+                      path_, header_.bytes + first_restart_, replaced_, replaced_ == 1 ? "" : "s"));
+    if (timeless_ > 0)
+      warnings.push_back(fmt::format("{}: byte {}: {} with a time that is no number: left out", path_,
+                                     header_.bytes + first_timeless_,
+                                     timeless_ == 1 ? "a state" : fmt::format("{} states", timeless_)));
     return warnings;
   }
 
@@ -131,13 +138,24 @@ class StateReader {
         return;
       }
       const double time_s = big_endian_float(bytes + layout_.time()) * to_seconds_;
-      if (!std::isfinite(time_s) || (!times_.empty() && time_s <= times_.back())) {
-        if (late_++ == 0) first_late_ = at;
+      if (!std::isfinite(time_s)) {
+        if (timeless_++ == 0) first_timeless_ = at;
         continue;
       }
+      if (!times_.empty() && time_s <= times_.back()) replace_from(time_s, at);
       times_.push_back(time_s);
       usable_.push_back(bytes);
     }
+  }
+
+  /// A restarted run computes the states from a time on anew: what it wrote last counts.
+  void replace_from(double time_s, std::size_t at) {
+    if (replaced_ == 0) first_restart_ = at;
+    const auto first = std::lower_bound(times_.begin(), times_.end(), time_s);
+    replaced_ += static_cast<std::size_t>(times_.end() - first);
+    times_.erase(first, times_.end());
+    read_ = std::min(read_, times_.size());
+    usable_.resize(times_.size() - read_);
   }
 
   const std::string& path_;
@@ -147,8 +165,9 @@ class StateReader {
   std::string_view data_;  // from the first state on
   std::size_t whole_ = 0;
   std::vector<double> times_;
-  std::vector<const char*> usable_;
-  std::size_t damaged_at_ = kNowhere, late_ = 0, first_late_ = 0;
+  std::vector<const char*> usable_;  // states of this block that count
+  std::size_t read_ = 0;             // states of the blocks before that count
+  std::size_t damaged_at_ = kNowhere, replaced_ = 0, first_restart_ = 0, timeless_ = 0, first_timeless_ = 0;
 };
 
 /// The units asked for, else those the file says, else SI.

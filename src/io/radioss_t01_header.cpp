@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "io/radioss_variables.hpp"
+#include "io/reader.hpp"
 #include "text.hpp"
 
 namespace crashsim::io {
@@ -106,7 +107,8 @@ std::optional<UnitSystem> units_in(std::string_view record) {
 /// Builds the header from its records.
 class Parser {
  public:
-  Parser(std::string_view bytes, const std::string& path) : records_(bytes, path) {}
+  Parser(std::string_view bytes, const std::string& path)
+      : records_(bytes, path), most_channels_(most_channels(bytes.size())) {}
 
   RadiossT01Header parse() {
     read_run();
@@ -126,6 +128,13 @@ class Parser {
 
  private:
   void say(std::string key, std::string value) { header_.metadata.emplace_back(std::move(key), std::move(value)); }
+
+  /// @throws InvalidInput when so many more channels do not fit memory.
+  void check_room(std::size_t more, std::string_view what) const {
+    if (header_.traces.size() + more > most_channels_)
+      records_.refuse(records_.offset(), what,
+                      fmt::format("with its {} the file has more channels than fit memory ({})", more, most_channels_));
+  }
 
   void add(const std::string& entity, RadiossVariable variable, std::size_t order) {
     const std::string name = variable.name.empty() ? fmt::format("var{}", order) : std::string(variable.name);
@@ -166,6 +175,7 @@ class Parser {
 
   void read_global(int count) {
     const std::vector<int> codes = records_.integers(count, "codes of global variables");
+    check_room(codes.size(), "global variables");
     for (std::size_t i = 0; i < codes.size(); ++i) add("", radioss_global_variable(codes[i]), i + 1);
     add_record("global variables", codes.size());
   }
@@ -173,6 +183,7 @@ class Parser {
   /// The variables of a part or subset. @returns how many
   std::size_t read_part_variables(const std::string& entity, int count, std::string_view what) {
     const std::vector<int> codes = records_.integers(count, what);
+    check_room(codes.size(), what);
     for (std::size_t i = 0; i < codes.size(); ++i) add(entity, radioss_part_variable(codes[i]), i + 1);
     return codes.size();
   }
@@ -233,12 +244,14 @@ class Parser {
       records_.refuse(records_.offset(), what,
                       fmt::format("a state of {} entities with {} variables is larger than the rest of the file",
                                   entities.size(), codes.size()));
+    check_room(entities.size() * codes.size(), what);
     for (const std::string& entity : entities)
       for (std::size_t i = 0; i < codes.size(); ++i) add(entity, radioss_group_variable(kind, codes[i]), i + 1);
     add_record(what, entities.size() * codes.size());
   }
 
   Records records_;
+  std::size_t most_channels_;
   RadiossT01Header header_;
 };
 

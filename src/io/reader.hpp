@@ -46,6 +46,9 @@ std::span<const Reader* const> readers();
 /// Opens a file, finds its reader and reads the chosen channels. @throws InvalidInput as read_traces().
 TraceSet read_chosen(const std::string& path, const ReadOptions& options, const Choose& choose);
 
+/// How many channels a file of so many bytes may have: a damaged one must not make more of them than memory holds.
+std::size_t most_channels(std::size_t file_bytes);
+
 /// The channels that `options.channels` name, in catalogue order; all when it is empty.
 std::vector<std::size_t> channels_named_by(const ReadOptions& options, const TraceSet& catalogue);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -147,8 +148,10 @@ UnitSystem parse_unit_system(const std::string& name) {
   if (name.empty()) return {};
   for (const Named& known : kSystems)
     if (same_ignoring_case(known.name, trimmed(name))) return known.system;
-  throw InvalidInput(
-      fmt::format("units = '{}': unknown system of units; use kg-m-s, t-mm-s, kg-mm-ms or g-mm-ms", name));
+  std::string known;
+  for (const Named& system : kSystems)
+    known += fmt::format("{}{}", known.empty() ? "" : &system == std::end(kSystems) - 1 ? " or " : ", ", system.name);
+  throw InvalidInput(fmt::format("units = '{}': unknown system of units; use {}", name, known));
 }
 
 double to_si(const UnitSystem& system, Dimension dimension) {

@@ -101,6 +101,19 @@ TEST(Csv, UnitsInBracketsAreNotPartOfTheNameSuffixesAre) {
 }
 
 /// Rows of a load-cell wall are called A, B, .. K: row K in newtons is not in kilonewtons.
+TEST(Csv, MoreColumnsThanFitMemoryAreRefused) {
+  const test::TempDir dir;
+  constexpr int kColumns = 200000;
+  std::string names = "time", row = "0";
+  for (int column = 1; column < kColumns; ++column) {
+    names += ",a";
+    row += ",1";
+  }
+  EXPECT_THAT([&] { read_traces(dir.file("a.csv", names + "\n" + row + "\n")); },
+              ThrowsMessage<InvalidInput>(AllOf(HasSubstr("a.csv:2: a row of more than "),
+                                                HasSubstr(" cells, more channels than fit memory"))));
+}
+
 TEST(Csv, ALetterBeforeTheUnitIsNoPartOfIt) {
   const test::TempDir dir;
   const TraceSet set = read_traces(dir.file(

@@ -105,14 +105,24 @@ TEST(LoadCellWall, KnownCellsGiveKnownRowsColumnsTotalAndHeight) {
 }
 
 TEST(LoadCellWall, CellsAreFilteredByCfc60) {
+  constexpr double kTone_hz = 100.0, kGain = 0.70725;  // of both passes at 10 kHz
+  constexpr double kTolerance = 0.01;                  // regression: what the ends of the record add
   Wall test;
-  test.add_cells(1, 5, 1);
+  for (int row = 1; row <= 5; ++row) {
+    NhtsaRecord record = cell_record(0, fmt::format("LC{:02}01", row), "CELL");
+    record.first = "-200";
+    record.last = "2000";
+    record.step = "100";
+    test.add(record, [=](double t) { return 1e4 * std::sin(2.0 * std::numbers::pi * kTone_hz * t); });
+  }
   const std::string path = test.write();
   const LoadCellWall filtered = read_wall(path), plain = read_wall(path, unfiltered());
   EXPECT_THAT(filtered.steps, Contains("filter: CFC60, forward and backward"));
-  const double peak = value_at(plain.total_force_n, plain, 0.05);
-  EXPECT_NEAR(value_at(filtered.total_force_n, filtered, 0.05), peak, 0.01 * peak);
-  EXPECT_NE(value_at(filtered.total_force_n, filtered, 0.05), peak);
+  for (const double crest_s : {0.0525, 0.1025, 0.1525}) {
+    const double gain =
+        std::abs(value_at(filtered.total_force_n, filtered, crest_s) / value_at(plain.total_force_n, plain, crest_s));
+    EXPECT_NEAR(gain, kGain, kTolerance * kGain) << crest_s;
+  }
 }
 
 TEST(LoadCellWall, TheOffsetBeforeImpactIsTakenOff) {
@@ -267,6 +277,11 @@ TEST(LoadCellWall, RowSumsAreReadByNameOrChoice) {
   EXPECT_THAT(named.steps, Contains("filter: none"));
   EXPECT_NEAR(value_at(named.total_force_n, named, 0.05), 3e4, 1e-3);
   EXPECT_NEAR(named.force_height_m[50], (1.5 + 2.0 * 0.5) / 3.0 * 0.2460625, 1e-8);
+  const auto assumed = HasSubstr("heights are an assumption until cell_height_m and top_row are given");
+  EXPECT_THAT(named.warnings, Contains(assumed));
+  WallOptions given;
+  given.cell_height_m = 0.125;
+  EXPECT_THAT(read_wall(path, given).warnings, testing::Not(Contains(assumed)));
   WallOptions options;
   options.rows = {"row_b_n", "lower_n"};
   EXPECT_NEAR(value_at(read_wall(path, options).total_force_n, named, 0.05), 5e4, 1e-3);

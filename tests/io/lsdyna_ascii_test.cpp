@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "support/lsdyna_files.hpp"
 #include "support/shared_data.hpp"
 #include "support/temp_dir.hpp"
+#include "support/unit_warnings.hpp"
 
 namespace crashsim {
 namespace {
@@ -46,7 +48,8 @@ constexpr Database kDatabases[] = {{"nodout", test::nodout_run}, {"rcforc", test
 TraceSet read(const std::string& text,
               const ReadOptions& options = {.channels = {}, .columns = "", .units = "kg-m-s"}) {
   const test::TempDir dir;
-  return read_traces(dir.file("file", text), options);
+  TraceSet set = read_traces(dir.file("file", text), options);
+  return options.units.empty() ? std::move(set) : test::without_unit_warnings(std::move(set));
 }
 
 const Trace& with_id(const TraceSet& set, const std::string& id) {
@@ -241,6 +244,61 @@ TEST(LsdynaAsciiFiles, EntitiesHaveTheirTitles) {
   EXPECT_EQ(with_id(read(test::secforc_run({}).text), "secforc/1/x_moment").name, "Section 7 left rail_MX");
   EXPECT_EQ(with_id(read(test::matsum_run({}).text), "matsum/1/internal_energy").location, "Plate 1");
   EXPECT_EQ(with_id(read(test::glstat_run({}).text), "glstat/2/stonewall_energy").location, "wall_2");
+}
+
+TEST(LsdynaAsciiFiles, EnergiesOfWallsAreNamedByTheirNumbers) {
+  EXPECT_EQ(with_id(read(test::glstat_run({}).text), "glstat/1/stonewall_energy").name, "wall_1_stonewall_energy");
+}
+
+TEST(LsdynaAsciiFiles, ALegendMayStartWithoutItsBrace) {
+  LsdynaRun run = test::rcforc_run({});
+  run.text.erase(run.text.find("{BEGIN LEGEND}") + 13, 1);
+  const TraceSet set = read(run.text);
+  EXPECT_EQ(with_id(set, "rcforc/2 master/x_force").name, "Front to barrier master_FX");
+  expect_states(set, run, run.times.size());
+}
+
+TEST(LsdynaAsciiFiles, LegendsWithoutAnEndAreSearchedOnce) {
+  constexpr int kLegends = 200000;  // each to the file's end would take minutes
+  LsdynaRun run = test::rcforc_run({});
+  for (int i = 0; i < kLegends; ++i) run.text += "{BEGIN LEGEND\n";
+  expect_states(read(run.text), run, run.times.size());
+}
+
+TEST(LsdynaAsciiFiles, ACountMayTouchTheDotsOfItsLabel) {
+  LsdynaRun run = test::glstat_run({});
+  constexpr std::string_view kLabel = "reached the minimum time step..    0";
+  for (std::size_t at = run.text.find(kLabel); at != std::string::npos; at = run.text.find(kLabel, at))
+    run.text.replace(at, kLabel.size(), "reached the minimum time step..12345");
+  const TraceSet set = read(run.text);
+  EXPECT_THAT(with_id(set, "glstat/num_bad_shells").values, testing::Each(12345.0));
+  EXPECT_THAT(set.warnings, IsEmpty());
+}
+
+TEST(LsdynaAsciiFiles, AnEntityThatStandsTwiceInAStateIsReadOnce) {
+  std::string text;
+  for (const auto& [time, force] : {std::pair("0.00000E+00", 1), std::pair("1.00000E-01", 2)})
+    for (const auto& [contact, add] : {std::pair(2, 0), std::pair(5, 10), std::pair(5, 20), std::pair(7, 30)})
+      text += fmt::format("  slave  {:10d} time {}  x {:12.5E}  y  0.00000E+00  z  0.00000E+00\n", contact, time,
+                          1.0 * (force + add));
+  const TraceSet set = read(text);
+  EXPECT_EQ(set.traces.size(), 9u);
+  EXPECT_THAT(with_id(set, "rcforc/2 slave/x_force").values, ElementsAre(1.0, 2.0));
+  EXPECT_THAT(with_id(set, "rcforc/5 slave/x_force").values, ElementsAre(11.0, 12.0));
+  EXPECT_THAT(with_id(set, "rcforc/7 slave/x_force").values, ElementsAre(31.0, 32.0));
+  EXPECT_THAT(set.warnings, ElementsAre(AllOf(HasSubstr("6 values stand twice in a state, the first slave"),
+                                              HasSubstr("5 x at time 0: the first of each is kept"))));
+}
+
+TEST(LsdynaAsciiFiles, MoreValuesThanFitMemoryAreRefused) {
+  std::string matsum = " time =   0.0000E+00\n";
+  for (int part = 0; part < 100000; ++part) matsum += fmt::format(" mat.#= {} inten= 1 kinen= 1\n", part);
+  EXPECT_THAT([&] { read(matsum); }, ThrowsMessage<InvalidInput>(HasSubstr("more channels than fit memory")));
+  std::string nodout = test::nodout_head(1, " 0.0000000E+00") + "\n\n" + test::kTranslations + "\n";
+  std::string row;
+  for (int column = 0; column < 12; ++column) row += " 0.00000E+00";
+  for (int node = 1; node <= 20000; ++node) nodout += fmt::format("{:9d}{}\n", node, row);
+  EXPECT_THAT([&] { read(nodout); }, ThrowsMessage<InvalidInput>(HasSubstr("more channels than fit memory")));
 }
 
 TEST(LsdynaAsciiFiles, NewNamesOfTheSurfacesMeanTheSame) {

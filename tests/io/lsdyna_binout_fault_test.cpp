@@ -158,6 +158,17 @@ TEST(LsdynaBinoutFault, StatesWithAnotherNumberOfValuesAreLeftOutOfTheVariable) 
                                     "y_velocity (1)")));
 }
 
+TEST(LsdynaBinoutFault, MoreDatabasesThanAnyRunWritesAreRefused) {
+  LsdaWriter writer;
+  for (int i = 0; i < 50000; ++i) {
+    writer.cd(fmt::format("/b{}/d1", i));
+    writer.write("x", 1.0);
+  }
+  writer.save();
+  EXPECT_THAT(refusal(writer.bytes()),
+              testing::ContainsRegex("binout0000: binout of [0-9]+ bytes: more and smaller variables than any"));
+}
+
 TEST(LsdynaBinoutFault, WithoutIdsValuesAreNumberedByPosition) {
   LsdaWriter writer;
   writer.cd("/nodout/d000001");

@@ -14,6 +14,7 @@
 #include "support/program.hpp"
 #include "support/shared_data.hpp"
 #include "support/temp_dir.hpp"
+#include "support/unit_warnings.hpp"
 
 namespace crashsim {
 namespace {
@@ -64,7 +65,7 @@ BinoutDatabase two_nodes(std::vector<double> times, double first_value = 0.0) {
 TEST(LsdynaBinout, ARealRunSaysWhatItIs) {
   const auto path = test::shared_data(kSamples[0]);
   if (!path) GTEST_SKIP() << test::kNoSharedData;
-  const TraceSet set = read_traces(path->string(), kSi);
+  const TraceSet set = test::without_unit_warnings(read_traces(path->string(), kSi));
   EXPECT_EQ(set.format, "lsdyna_binout");
   EXPECT_EQ(set.title, "Geometric Sphere Impacting a Plate");
   EXPECT_THAT(set.input_files, ElementsAre(path->string()));
@@ -225,6 +226,57 @@ TEST(LsdynaBinout, EachVariableTakesTheIdsThatBelongToIt) {
   EXPECT_THAT(set.warnings,
               ElementsAre(HasSubstr("elout/solid: 1 id is there more than once: the later ones are named like 7#2"),
                           HasSubstr("elout/solid: no ids for the values of state: they are numbered by position")));
+}
+
+TEST(LsdynaBinout, AListOfIdsIsNotGuessedAmongSeveral) {
+  const test::TempDir dir;
+  LsdaWriter writer;
+  writer.cd("/sbtout/metadata");
+  writer.write("belt_ids", std::vector<int>{1, 2});
+  writer.write("retractor_ids", std::vector<int>{11, 12});
+  writer.write("slipring_ids", std::vector<int>{21, 22});
+  writer.cd("/sbtout/d000001");
+  writer.write("time", 0.0);
+  for (const char* name : {"belt_force", "ring_slip", "payout"}) writer.write(name, std::vector<double>{1, 2});
+  writer.save();
+  const TraceSet set = read_traces(dir.file("x", writer.bytes()), kSi);
+  EXPECT_THAT(ids_of(set), ElementsAre("sbtout/1/belt_force", "sbtout/2/belt_force", "sbtout/21/ring_slip",
+                                       "sbtout/22/ring_slip", "sbtout/#1/payout", "sbtout/#2/payout"));
+  EXPECT_THAT(set.warnings, ElementsAre(HasSubstr("sbtout: no ids for the values of payout")));
+}
+
+TEST(LsdynaBinout, TotalsBelongToTheModelEvenWithOneEntity) {
+  const test::TempDir dir;
+  LsdaWriter writer;
+  writer.cd("/bndout/metadata");
+  writer.write("ids", std::vector<int>{7});
+  writer.cd("/bndout/d000001");
+  writer.write("time", 0.0);
+  for (const char* name : {"x_force", "xtotal", "ytotal", "ztotal", "thick_shell_id", "max_thick_shell_mass"})
+    writer.write(name, std::vector<double>{1});
+  writer.save();
+  EXPECT_THAT(ids_of(read_traces(dir.file("x", writer.bytes()), kSi)),
+              ElementsAre("bndout/7/x_force", "bndout/xtotal", "bndout/ytotal", "bndout/ztotal",
+                          "bndout/thick_shell_id", "bndout/max_thick_shell_mass"));
+}
+
+TEST(LsdynaBinout, EnergiesOfWallsAreNamedAsInTheAsciiFile) {
+  const test::TempDir dir;
+  for (const std::size_t walls : {1u, 2u}) {
+    LsdaWriter writer;
+    writer.cd("/glstat/d000001");
+    writer.write("time", 0.0);
+    writer.write("kinetic_energy", 1.0);
+    writer.write("stonewall_energy", std::vector<double>(walls, 2.0));
+    writer.save();
+    const TraceSet set = read_traces(dir.file("x", writer.bytes()), kSi);
+    ASSERT_EQ(set.traces.size(), 1 + walls);
+    for (std::size_t wall = 1; wall <= walls; ++wall) {
+      EXPECT_EQ(set.traces[wall].id, fmt::format("glstat/{}/stonewall_energy", wall));
+      EXPECT_EQ(set.traces[wall].name, fmt::format("wall_{}_stonewall_energy", wall));
+    }
+    EXPECT_THAT(set.warnings, testing::Each(testing::Not(HasSubstr("no ids"))));
+  }
 }
 
 TEST(LsdynaBinout, UnitsOfTheDeckBecomeSi) {

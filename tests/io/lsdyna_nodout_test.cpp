@@ -16,6 +16,7 @@
 #include "support/lsdyna_files.hpp"
 #include "support/shared_data.hpp"
 #include "support/temp_dir.hpp"
+#include "support/unit_warnings.hpp"
 
 namespace crashsim {
 namespace {
@@ -29,7 +30,8 @@ const ReadOptions kSi = {.channels = {}, .columns = "", .units = "kg-m-s"};
 
 TraceSet read(const std::string& text, const ReadOptions& options = kSi) {
   const test::TempDir dir;
-  return read_traces(dir.file("nodout", text), options);
+  TraceSet set = read_traces(dir.file("nodout", text), options);
+  return options.units.empty() ? std::move(set) : test::without_unit_warnings(std::move(set));
 }
 
 const Trace& with_id(const TraceSet& set, const std::string& id) {
@@ -167,6 +169,26 @@ TEST(LsdynaNodout, AStateWithADamagedNumberIsLeftOut) {
   EXPECT_THAT(set.warnings, ElementsAre(testing::AllOf(
                                 HasSubstr("one state not whole and left out, the first of time 0.004 in bytes "),
                                 HasSubstr("the row of node 17 at byte "), HasSubstr(" is damaged"))));
+}
+
+TEST(LsdynaNodout, ValuesOfAStateThatIsLeftOutAreNotCountedAsMissing) {
+  LsdynaRun run = test::nodout_run({});
+  const std::size_t first = run.text.find("\n       17 ", run.state_ends[3]) + 1;
+  const std::size_t second = run.text.find('\n', first) + 1;
+  run.text.replace(first + 10 + 4 * 12, 12, "************");
+  run.text.replace(second + 10 + 4 * 12, 12, " 1.23x56E+00");
+  EXPECT_THAT(read(run.text).warnings, ElementsAre(HasSubstr("one state not whole and left out, the first of time")));
+}
+
+TEST(LsdynaNodout, AnOverflowedFieldOfAStateInAnotherOrderIsCountedOnce) {
+  LsdynaRun run = test::nodout_run({.seed = 1, .states = 12, .first_state = 0, .entities = 3, .line_end = "\n"});
+  const std::size_t first = run.text.find("\n       17 ", run.state_ends[3]) + 1;
+  const std::size_t second = run.text.find('\n', first) + 1, third = run.text.find('\n', second) + 1;
+  const std::size_t end = run.text.find('\n', third) + 1;
+  run.text.replace(first + 10 + 4 * 12, 12, "************");
+  run.text = run.text.substr(0, second) + run.text.substr(third, end - third) +
+             run.text.substr(second, third - second) + run.text.substr(end);
+  EXPECT_THAT(read(run.text).warnings, ElementsAre(HasSubstr("one value missing (nan, overflowed or not written)")));
 }
 
 TEST(LsdynaNodout, RotationsMayBeAbsent) {

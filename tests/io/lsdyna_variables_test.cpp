@@ -16,6 +16,10 @@ TEST(LsdynaVariables, NamesSayWhatTheyMeasure) {
   EXPECT_EQ(io::lsdyna_dimension({"rbdout", "global_rdy"}), Dimension::angle);
   EXPECT_EQ(io::lsdyna_dimension({"secforc", "total_moment"}), Dimension::moment);
   EXPECT_EQ(io::lsdyna_dimension({"matsum", "x_momentum"}), Dimension::impulse);
+  for (const char* force : {"axial", "shear_s", "shear_t"})
+    EXPECT_EQ(io::lsdyna_dimension({"elout/beam", force}), Dimension::force) << force;
+  for (const char* moment : {"moment_s", "moment_t", "torsion"})
+    EXPECT_EQ(io::lsdyna_dimension({"elout/beam", moment}), Dimension::moment) << moment;
   EXPECT_EQ(io::lsdyna_dimension({"nodout", "temperature"}), Dimension::unknown);
   EXPECT_EQ(io::lsdyna_trace({"rbdout", "global_rvy"}, "3", "").axis, 'Y');
 }

@@ -56,6 +56,24 @@ TEST(RadiossCsv, NumberedVariablesAreNamedByTheirOrder) {
   EXPECT_THAT(named(set, "part2_MASS").values, ElementsAre(0, DoubleEq(22000.0)));
 }
 
+TEST(RadiossCsv, OnlyTheGroupsTitleMakesAWall) {
+  const test::TempDir dir;
+  const auto read = [&](const std::string& entity, int variables) {
+    std::string names = "\"time\",\"INTERNAL ENERGY\",\"KINETIC ENERGY\"", rows[2] = {"0,0,0", "1,1,1"};
+    for (int i = 0; i < variables; ++i) names += fmt::format(",\"{} var {}\"", entity, i + 4);
+    for (int i = 0; i < variables; ++i)
+      for (std::string& row : rows) row += ",0";
+    return read_traces(dir.file("t.csv", fmt::format("{}\n{}\n{}\n", names, rows[0], rows[1])));
+  };
+  const TraceSet nodes = read("outputblock1 250 FIREWALL", 9);
+  EXPECT_EQ(nodes.traces[5].name, "FIREWALL_VX");
+  EXPECT_EQ(nodes.traces[5].dimension, Dimension::speed);
+  const TraceSet node = read("outputblock1 250 FIREWALL", 6);
+  EXPECT_EQ(node.traces[2].name, "FIREWALL_var1");
+  EXPECT_EQ(node.traces[2].dimension, Dimension::unknown);
+  EXPECT_EQ(read("TH RWALL 1 Barrier", 6).traces[2].name, "Barrier_FNX");
+}
+
 TEST(RadiossCsv, VariablesNamedByTheRunsTitlesHaveForcesAlready) {
   const test::TempDir dir;
   const TraceSet set =
@@ -162,7 +180,8 @@ TEST(RadiossCsv, AnUnknownSystemOfUnitsIsRefused) {
   const std::string path = dir.file("t.csv", converted());
   EXPECT_THAT([&] { read_traces(path, {.channels = {}, .columns = "", .units = "t-mm-h"}); },
               ThrowsMessage<InvalidInput>(
-                  HasSubstr("units = 't-mm-h': unknown system of units; use kg-m-s, t-mm-s, kg-mm-ms or g-mm-ms")));
+                  HasSubstr("units = 't-mm-h': unknown system of units; use kg-m-s, t-mm-s, kg-mm-ms, g-mm-ms, Mg-mm-s "
+                            "or SI")));
 }
 
 TEST(RadiossCsv, ConvertedAndNamedTablesOfOneRunAgree) {

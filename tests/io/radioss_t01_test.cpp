@@ -168,7 +168,7 @@ TEST_F(RadiossT01, StatesBeforeTheDamageAreKept) {
                                 third, file.state_bytes))));
 }
 
-TEST_F(RadiossT01, StatesThatARestartRepeatsAreLeftOut) {
+TEST_F(RadiossT01, ARestartedRunTakesThePlaceOfWhatItComputesAnew) {
   const test::RadiossT01Deck deck = small_deck();
   test::RadiossT01File file = test::radioss_t01_header(deck);
   for (const float time : {0.0F, 1.0F, 2.0F, 1.0F, 2.0F, 3.0F, std::nanf(""), 4.0F}) {
@@ -178,10 +178,43 @@ TEST_F(RadiossT01, StatesThatARestartRepeatsAreLeftOut) {
   }
   const TraceSet set = read(file.bytes);
   EXPECT_THAT(*set.traces[0].time_s, ElementsAre(0.0, 1.0, 2.0, 3.0, 4.0));
-  EXPECT_THAT(set.traces[0].values, ElementsAre(0.0, 1.0, 2.0, 5.0, 7.0));
-  EXPECT_THAT(set.warnings, ElementsAre(HasSubstr(fmt::format(
-                                "byte {}: 3 states are not later than those before them, as a restart repeats them",
-                                file.header_bytes + 3 * file.state_bytes))));
+  EXPECT_THAT(set.traces[0].values, ElementsAre(0.0, 3.0, 4.0, 5.0, 7.0));
+  EXPECT_THAT(set.warnings,
+              ElementsAre(HasSubstr(fmt::format("byte {}: the run was restarted: 2 states of an earlier run gave way",
+                                                file.header_bytes + 3 * file.state_bytes)),
+                          HasSubstr(fmt::format("byte {}: a state with a time that is no number: left out",
+                                                file.header_bytes + 6 * file.state_bytes))));
+}
+
+TEST_F(RadiossT01, ARestartMayReachFarBack) {
+  const test::RadiossT01Deck deck = small_deck();
+  test::RadiossT01File file = test::radioss_t01_header(deck);
+  constexpr int kBefore = 200, kRestart = 50, kAfter = 100;
+  for (int state = 0; state < kBefore + kAfter; ++state) {
+    std::vector<float> values(file.names.size() + 1, static_cast<float>(state));
+    values[0] = static_cast<float>(state < kBefore ? state : state - kBefore + kRestart);
+    test::add_state(deck, values, file);
+  }
+  const TraceSet set = read(file.bytes);
+  for (const Trace& trace : set.traces) {
+    ASSERT_EQ(trace.values.size(), static_cast<std::size_t>(kRestart + kAfter));
+    ASSERT_EQ(trace.times().size(), trace.values.size());
+    EXPECT_EQ(trace.times()[kRestart - 1], kRestart - 1);
+    EXPECT_EQ(trace.times()[kRestart], kRestart);
+    EXPECT_EQ(trace.times().back(), kRestart + kAfter - 1);
+  }
+  const Trace& energy = set.traces[0];
+  EXPECT_DOUBLE_EQ(energy.values[kRestart - 1], kRestart - 1);
+  EXPECT_DOUBLE_EQ(energy.values[kRestart], kBefore);
+  EXPECT_DOUBLE_EQ(energy.values.back(), kBefore + kAfter - 1);
+}
+
+TEST_F(RadiossT01, MoreChannelsThanFitMemoryAreRefused) {
+  test::RadiossT01Deck deck;
+  deck.groups = {{"nodes", 0, std::vector<std::string>(500, "N"), std::vector<int>(500, 4), {}}};
+  const std::string header = test::radioss_t01_header(deck).bytes;  // 250,000 values a state
+  EXPECT_THAT(message_of(header + std::string(1100000, '\0')),
+              HasSubstr("group 'nodes': with its 250000 the file has more channels than fit memory"));
 }
 
 TEST_F(RadiossT01, OtherFilesAreNotTaken) {

@@ -63,6 +63,17 @@ TEST_F(Redundancy, OffsetsShiftsAndScalesAreFound) {
   EXPECT_THAT(findings([](double t) { return 1.2 * pulse_g(t); }), ElementsAre(HasSubstr("differ by 20 % (root mean")));
 }
 
+TEST_F(Redundancy, ShiftsAreFoundInFastRecordsToo) {
+  for (NhtsaRecord* record : {&primary, &redundant}) {
+    record->first = "-5000";
+    record->last = "12000";
+    record->step = "10";
+  }
+  EXPECT_THAT(findings(pulse_g), IsEmpty());
+  EXPECT_THAT(findings([](double t) { return pulse_g(t - 0.003); }), Contains(HasSubstr("are 3 ms apart in time")));
+  EXPECT_THAT(findings([](double t) { return -pulse_g(t); }), ElementsAre(HasSubstr("have opposite signs")));
+}
+
 TEST_F(Redundancy, OnlyChannelsOfOnePlaceAndGoodOnesAreCompared) {
   const auto far = [](double t) { return 3.0 * pulse_g(t); };
   redundant.attachment = "FLRR";

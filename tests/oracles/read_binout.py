@@ -30,6 +30,8 @@ def print_database(path, found):
             named = len(values) == len(ids) and variable not in ("time", "cycle")
             for column, value in enumerate(values):
                 middle = f"{ids[column]}/" if named else ""
+                if (path, variable) == ("glstat", "stonewall_energy"):
+                    middle = f"{column + 1}/"  # its walls have no ids
                 channels.setdefault(f"{database}/{middle}{variable}", []).append(value)
     for channel, values in channels.items():
         print(channel, " ".join(struct.pack(">d", float(v)).hex() for v in values), sep="\t")
