@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,7 +39,7 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// Channels that one of a file's histories holds, over the time that any of them spans.
+/// The channels of one database of a file, and the time that they span together.
 struct Database {
   std::string name;
   std::size_t channels = 0, samples = 0;
@@ -68,7 +71,7 @@ Json metadata_json(const TraceSet& set) {
       members.emplace_back(key, value);
       continue;
     }
-    Json& entry = members[place->second].second;
+    Json& entry = members.data()[place->second].second;
     if (!entry.is_array()) entry = Json::array({entry});
     entry.push_back(value);
   }
@@ -117,15 +120,26 @@ std::string range_of(double low, double high) {
   return std::isnan(low) ? "-" : fmt::format("{:.4g} .. {:.4g}", low, high);
 }
 
+/// Header fields for people to read: none that are shown in their own place, nor the record, which is for programs.
+std::vector<std::pair<std::string, std::string>> further_fields(const TraceSet& set) {
+  constexpr std::string_view kShownElsewhere[] = {"title", "mass_kg", "impact_speed_mps", "record"};
+  std::vector<std::pair<std::string, std::string>> fields = set.metadata;
+  std::erase_if(fields, [&](const auto& field) {
+    return std::find(std::begin(kShownElsewhere), std::end(kShownElsewhere), field.first) != std::end(kShownElsewhere);
+  });
+  return fields;
+}
+
 /// Format and title, what the file says of its test, its databases.
 std::string heading_of(const TraceFileInfo& info) {
   constexpr std::size_t kFewFields = 12;
   const TraceSet& set = info.set;
   std::string text = fmt::format("{}: {}{}\n", set.path, set.format, set.title.empty() ? "" : ", " + set.title);
-  if (set.metadata.size() > kFewFields) {
-    text += fmt::format("  {} header fields: --json shows them\n", set.metadata.size());
+  const auto further = further_fields(set);
+  if (further.size() > kFewFields) {
+    text += fmt::format("  {} header fields: --json shows them\n", further.size());
   } else {
-    for (const auto& [key, value] : set.metadata) text += fmt::format("  {}: {}\n", key, value);
+    for (const auto& [key, value] : further) text += fmt::format("  {}: {}\n", key, value);
   }
   if (!std::isnan(set.mass_kg)) text += fmt::format("  mass {:g} kg\n", set.mass_kg);
   if (!std::isnan(set.impact_speed_mps))

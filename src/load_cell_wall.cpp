@@ -60,9 +60,10 @@ double cell_height(const Extent& extent, const std::vector<WallCell>& cells, con
       "rows of {:.5g} m, {}, row {} on top: heights {:.4g} to {:.4g} m", cell_m, is_given ? "given" : "by their number",
       options.top_row == TopRow::first ? row_name(extent.first_row) : row_name(extent.last_row),
       options.lower_edge_m + 0.5 * cell_m, options.lower_edge_m + (extent.rows() - 0.5) * cell_m));
-  if (!is_given && cells.front().is_lettered)
+  const bool is_assumed = cells.front().is_lettered || cells.front().column == 0;
+  if (!is_given && is_assumed)
     wall.warnings.push_back(
-        "the header does not say how high the cells of this wall are, nor which row is on top: heights are "
+        "the file does not say how high the cells of this wall are, nor which row is on top: heights are "
         "an assumption until cell_height_m and top_row are given from the test report");
   return cell_m;
 }

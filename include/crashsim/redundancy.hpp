@@ -16,8 +16,9 @@ inline constexpr double kSameTime_s = 1e-3;  ///< Shift at which they agree best
 inline constexpr double kSameDeltaV = 0.05;  ///< Changes of speed over 150 ms from time 0, of the larger one.
 
 /// What differs, one sentence a finding: each redundant channel (CHSTAT R) against the primary one of the same vehicle,
-/// seat, sensor, place, axis, unit and comment; and the longitudinal channels of the compartment against each other by
-/// their change of speed. Only channels that were read and are not flagged bad are compared.
+/// seat, sensor, place, axis and unit, of several the one with the same comment; and the longitudinal channels of the
+/// compartment against each other by their change of speed. Only channels that were read and are not flagged bad are
+/// compared.
 std::vector<std::string> check_redundant(const TraceSet& set);
 
 }  // namespace crashsim
