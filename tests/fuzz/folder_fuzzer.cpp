@@ -1,6 +1,7 @@
 /// libFuzzer target of a reader whose tests are several files, CRASHSIM_FUZZED_READER. The input is those files one
 /// after the other, each after a line "==== name"; the first is the one that is read.
 
+#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -77,8 +78,12 @@ void read(const io::Reader& reader, const io::InputFile& file) {
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;
   });
-  for (const Trace& trace : set.traces)
-    if (trace.has_samples && trace.times().size() != trace.values.size()) std::abort();
+  for (const Trace& trace : set.traces) {
+    if (!trace.has_samples) continue;
+    if (trace.times().size() != trace.values.size()) std::abort();
+    for (std::size_t i = 1; i < trace.values.size(); ++i)
+      if (!(trace.times()[i] >= trace.times()[i - 1])) std::abort();
+  }
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 /// libFuzzer target of one trace reader, CRASHSIM_FUZZED_READER: the input is a file's bytes.
 ///
 /// What must hold for any bytes: only InvalidInput is thrown; every trace with samples has as many times, which never
-/// decrease; a channel of a sound file, read alone, is the same as read among all; and no more memory is held than
-/// fuzz_memory.hpp allows.
+/// decrease, in any units; a channel of a sound file, read alone, is the same as read among all; and no more memory is
+/// held than fuzz_memory.hpp allows.
 
 #include <cstdint>
 #include <cstdlib>
@@ -49,6 +49,8 @@ void read(const io::Reader& reader, const io::InputFile& file) {
   const TraceSet set = reader.read(file, {}, all_of);
   for (const Trace& trace : set.traces) check(trace);
   if (!set.traces.empty() && set.warnings.empty()) check_alone(reader, file, set.traces.back(), set.traces.size() - 1);
+  for (const Trace& trace : reader.read(file, {.channels = {}, .columns = "", .units = "t-mm-s"}, all_of).traces)
+    check(trace);
 }
 
 }  // namespace

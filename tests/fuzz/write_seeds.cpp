@@ -8,8 +8,11 @@
 #include <fmt/format.h>
 
 #include "support/binout_files.hpp"
+#include "support/iso_mme_files.hpp"
 #include "support/lsdyna_files.hpp"
+#include "support/nhtsa_files.hpp"
 #include "support/radioss_t01_files.hpp"
+#include "support/uds_writer.hpp"
 
 namespace crashsim::fuzz {
 namespace {
@@ -56,6 +59,46 @@ void write_radioss_t01(const fs::path& root) {
     save(root / "radioss_t01", fmt::format("random{}", i), test::random_radioss_t01_file(random).bytes);
 }
 
+/// Several files in one, as folder_fuzzer.cpp takes them apart.
+std::string joined(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::string text;
+  for (const auto& [name, bytes] : files) text += fmt::format("==== {}\n{}\n", name, bytes);
+  return text;
+}
+
+void write_nhtsa(const fs::path& root) {
+  save(root / "nhtsa", "test",
+       joined({{"v1.EV5", test::header_text({{.curve = 1}, {.curve = 2, .attachment = "FLRR"}})},
+               {"v1.001", test::kFiveSamples},
+               {"v1.002", test::kFiveSamples}}));
+  save(root / "nhtsa", "channel", joined({{"v1.001", test::kFiveSamples}, {"v1.EV5", test::header_text({{}})}}));
+  for (const char* format : {"IEEE", "SUN", "VAX"})
+    save(root / "nhtsa_uds", format,
+         test::UdsWriter(format)
+             .header(2)
+             .curve(1, -1, 1)
+             .data("Y DATA", {1, 2, 3})
+             .curve(2, 1, 3, "X-Y")
+             .data("Y DATA", {1, 2, 3})
+             .data("X DATA", {0, 1, 2})
+             .file());
+}
+
+void write_iso_mme(const fs::path& root) {
+  const std::string implied = test::channel_text({});
+  const std::string explicit_times =
+      test::channel_text({.reference = "explicit", .reference_name = "10TIRS000000TI0", .samples = "1\n2\n3\n4\n5\n"});
+  const std::string times =
+      test::channel_text({.code = "10TIRS000000TI00", .unit = "s", .samples = "0.0\n0.1\n0.2\n0.4\n0.5\n"});
+  const std::string list = test::mme_text({{"Number of channels", "2"}, {"Name of channel 001", "10VEHCCG0000ACXP"}});
+  save(root / "iso_mme", "test",
+       joined({{"test.mme", test::mme_text(test::test_lines())},
+               {"Channel/test.chn", list},
+               {"Channel/test.001", explicit_times},
+               {"Channel/test.002", times}}));
+  save(root / "iso_mme", "channel", joined({{"Channel/test.001", implied}}));
+}
+
 }  // namespace
 }  // namespace crashsim::fuzz
 
@@ -69,4 +112,6 @@ int main(int argc, char** argv) {
   crashsim::fuzz::write_lsdyna_ascii(root);
   crashsim::fuzz::write_lsdyna_binout(root);
   crashsim::fuzz::write_radioss_t01(root);
+  crashsim::fuzz::write_nhtsa(root);
+  crashsim::fuzz::write_iso_mme(root);
 }
