@@ -16,6 +16,7 @@
 #include "fuzz_memory.hpp"
 #include "io/reader.hpp"
 #include "text.hpp"
+#include "trace_rules.hpp"
 
 namespace crashsim {
 namespace {
@@ -78,12 +79,7 @@ void read(const io::Reader& reader, const io::InputFile& file) {
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;
   });
-  for (const Trace& trace : set.traces) {
-    if (!trace.has_samples) continue;
-    if (trace.times().size() != trace.values.size()) std::abort();
-    for (std::size_t i = 1; i < trace.values.size(); ++i)
-      if (!(trace.times()[i] >= trace.times()[i - 1])) std::abort();
-  }
+  fuzz::check_traces(set);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 /// libFuzzer target of one trace reader, CRASHSIM_FUZZED_READER: the input is a file's bytes.
 ///
-/// What must hold for any bytes: only InvalidInput is thrown; every trace with samples has as many times, which never
-/// decrease, in any units; a channel of a sound file, read alone, is the same as read among all; and no more memory is
-/// held than fuzz_memory.hpp allows.
+/// What must hold for any bytes, in any units: only InvalidInput is thrown; the rules of trace_rules.hpp; a channel of
+/// a sound file, read alone, is the same as read among all; and no more memory is held than fuzz_memory.hpp allows.
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -14,13 +12,10 @@
 
 #include "fuzz_memory.hpp"
 #include "io/reader.hpp"
+#include "trace_rules.hpp"
 
 namespace crashsim {
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 std::vector<std::size_t> all_of(const TraceSet& catalogue) {
   std::vector<std::size_t> all(catalogue.traces.size());
@@ -32,25 +27,18 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
-void check(const Trace& trace) {
-  if (!trace.has_samples) return;
-  require(trace.times().size() == trace.values.size());
-  for (std::size_t i = 1; i < trace.values.size(); ++i) require(trace.times()[i] >= trace.times()[i - 1]);
-}
-
 void check_alone(const io::Reader& reader, const io::InputFile& file, const Trace& trace, std::size_t index) {
   const TraceSet set = reader.read(file, {}, [&](const TraceSet&) { return std::vector{index}; });
-  require(set.traces.at(index).has_samples == trace.has_samples);
-  require(same_bits(set.traces[index].values, trace.values));
+  fuzz::require(set.traces.at(index).has_samples == trace.has_samples);
+  fuzz::require(same_bits(set.traces[index].values, trace.values));
 }
 
 void read(const io::Reader& reader, const io::InputFile& file) {
   if (!reader.detects(file)) return;
   const TraceSet set = reader.read(file, {}, all_of);
-  for (const Trace& trace : set.traces) check(trace);
+  fuzz::check_traces(set);
   if (!set.traces.empty() && set.warnings.empty()) check_alone(reader, file, set.traces.back(), set.traces.size() - 1);
-  for (const Trace& trace : reader.read(file, {.channels = {}, .columns = "", .units = "t-mm-s"}, all_of).traces)
-    check(trace);
+  fuzz::check_traces(reader.read(file, {.channels = {}, .columns = "", .units = "t-mm-s"}, all_of));
 }
 
 }  // namespace
