@@ -53,7 +53,8 @@ std::string shown_value(const SummaryItem& item) {
   if (const auto* number = std::get_if<double>(&item.value)) return shown_number(item.name, *number);
   if (const auto* count = std::get_if<std::int64_t>(&item.value)) return fmt::format("{}", *count);
   if (const auto* flag = std::get_if<bool>(&item.value)) return *flag ? "yes" : "no";
-  return std::get<std::string>(item.value);
+  const auto& text = std::get<std::string>(item.value);
+  return text.empty() ? "-" : text;
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

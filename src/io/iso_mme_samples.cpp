@@ -43,7 +43,7 @@ bool read_values(std::string_view data, std::size_t first_line, const std::strin
     const bool found = p != number;
     p = skip_blanks(p, end);
     if (p == end && found && end[-1] != '\r')
-      if (!is_last_line_whole({data.data(), static_cast<std::size_t>(start - data.data())},
+      if (!is_last_line_whole(data.substr(0, static_cast<std::size_t>(start - data.data())),
                               {start, static_cast<std::size_t>(end - start)}))
         return true;
     if (p != end && *p != '\n') {
