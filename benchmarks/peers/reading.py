@@ -51,7 +51,7 @@ def with_lasso(folder):
 
     def read():
         binout = Binout(str(folder / "binout0000"))
-        names = [name for name in binout.read("nodout") if name.startswith(("x_", "y_", "z_"))]
+        names = [name for name in binout.read("nodout") if name.startswith(("x_", "y_", "z_")) or name == "cycle"]
         return sum(binout.read("nodout", name).sum(dtype="float64") for name in names)
 
     report("binout0000", "lasso-python", size_of([folder / "binout0000"]), read)
