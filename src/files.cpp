@@ -69,12 +69,12 @@ void write_beside_and_rename(const std::string& path, std::string_view text) {
 void check_replaceable(const fs::path& folder, const std::vector<FileText>& files, bool overwrite) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder)) throw InvalidInput(fmt::format("{}: is a file: name a folder", folder.string()));
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!overwrite)
       throw InvalidInput(fmt::format("{}: exists already and is not empty: choose another name", folder.string()));
+    const std::string name = entry.path().lexically_relative(folder).generic_string();
     const bool is_written = std::any_of(files.begin(), files.end(), [&](const FileText& file) {
-      return file.name.substr(0, file.name.find('/')) == name;
+      return file.name == name || (entry.is_directory() && file.name.starts_with(name + "/"));
     });
     if (!is_written)
       throw InvalidInput(

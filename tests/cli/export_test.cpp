@@ -1,4 +1,6 @@
 /// crashsim export, of traces; tests/unit/export_test.cpp judges what models become.
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 #include <gmock/gmock.h>
@@ -68,6 +70,12 @@ TEST_F(ExportTraces, AFolderThatHoldsOtherFilesIsLeftAlone) {
   workspace.file("T1/notes.txt", "mine");
   EXPECT_EQ(to_iso_mme({"-o", "T1", "--overwrite"}).exit_code, kUserCanFix);
   EXPECT_EQ(workspace.text_of("T1/notes.txt"), "mine");
+  std::filesystem::remove(workspace.path("T1/notes.txt"));
+  workspace.file("T1/Channel/notes.txt", "mine too");
+  const Finished within = to_iso_mme({"-o", "T1", "--overwrite"});
+  EXPECT_EQ(within.exit_code, kUserCanFix);
+  EXPECT_THAT(within.err, HasSubstr("holds Channel/notes.txt too, which would be lost"));
+  EXPECT_EQ(workspace.text_of("T1/Channel/notes.txt"), "mine too");
 }
 
 TEST_F(ExportTraces, AFolderGivesTheTestItsName) {
