@@ -40,6 +40,14 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
   return pieces;
 }
 
+/// The text without blanks at its ends, and runs of blanks made one.
+inline std::string with_single_blanks(std::string_view text) {
+  std::string single;
+  for (const char c : trimmed(text))
+    if (!is_blank(c) || single.back() != ' ') single += is_blank(c) ? ' ' : c;
+  return single;
+}
+
 /// The first few of many names, for messages: "a, b, c, d, e, ..".
 inline std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 5;

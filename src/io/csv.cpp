@@ -9,6 +9,7 @@
 
 #include "io/csv_layout.hpp"
 #include "io/reader.hpp"
+#include "io/unit_system.hpp"
 #include "text.hpp"
 #include "unit_suffix.hpp"
 
@@ -132,11 +133,6 @@ TraceSet catalogue_of(const InputFile& file, const CsvLayout& layout, const std:
     set.traces.push_back(std::move(trace));
   }
   return set;
-}
-
-void scale(std::vector<double>& values, double factor) {
-  if (factor == 1.0) return;
-  for (double& value : values) value *= factor;
 }
 
 /// Times without a unit are taken as seconds when a crash can be that long.

@@ -15,6 +15,7 @@
 #include "io/iso_mme_samples.hpp"
 #include "io/iso_mme_test.hpp"
 #include "io/reader.hpp"
+#include "io/unit_system.hpp"
 #include "text.hpp"
 
 namespace crashsim::io {
@@ -29,11 +30,6 @@ std::size_t first_not_increasing(const std::vector<double>& times) {
   for (std::size_t i = 0; i < times.size(); ++i)
     if (!std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1])) return i;
   return times.size();
-}
-
-void scale(std::vector<double>& values, const Unit& unit) {
-  if (unit.to_si == 1.0) return;
-  for (double& value : values) value *= unit.to_si;
 }
 
 /// Sample times of channels, shared between those of one clock.
@@ -100,7 +96,7 @@ class Clocks {
     const std::string_view unit_text = channel.header.value("Unit");
     const auto unit = unit_text.empty() ? Unit{"s", Dimension::time, 1.0} : find_unit(unit_text, Dimension::time);
     if (!unit) throw InvalidInput(fmt::format("{}: its unit '{}' is none of time", channel.path, unit_text));
-    scale(samples.values, *unit);
+    scale(samples.values, unit->to_si);
     return std::move(samples.values);
   }
 
@@ -125,7 +121,7 @@ void read_samples(const InputFile& opened, std::size_t i, Clocks& clocks, IsoMme
   if (trace.problem.empty()) trace.problem = samples.problem;
   if (samples.values.empty()) return;
   if (trace.dimension != Dimension::unknown)
-    scale(samples.values, find_unit(trace.source_unit, trace.dimension).value());
+    scale(samples.values, find_unit(trace.source_unit, trace.dimension).value().to_si);
   try {
     if (!is_time_channel(trace)) {
       trace.time_s = clocks.of(i, samples.values.size());

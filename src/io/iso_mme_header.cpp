@@ -64,12 +64,7 @@ class Lines {
   std::size_t offset_ = 0, next_ = 0, number_ = 0;
 };
 
-std::string with_single_blanks(std::string_view text) {
-  std::string result;
-  for (const char c : trimmed(text.substr(0, kLongestName)))
-    if (!is_blank(c) || result.back() != ' ') result += is_blank(c) ? ' ' : c;
-  return result;
-}
+std::string name_in(std::string_view text) { return with_single_blanks(text.substr(0, kLongestName)); }
 
 bool ends(std::string_view line) { return line.ends_with('\n') || line.ends_with('\r'); }
 
@@ -95,7 +90,7 @@ IsoMmeFile iso_mme_file(std::string_view text, const std::string& path) {
   while (lines.next()) {
     const std::size_t colon = lines.line().find(':');
     if (colon == std::string_view::npos || colon > kLongestName) continue;
-    const std::string name = to_lower(with_single_blanks(lines.line().substr(0, colon)));
+    const std::string name = to_lower(name_in(lines.line().substr(0, colon)));
     if (is_one_of(kChannelNames, name)) {
       ++of_channel;
     } else if (name == "number of channels" || name.starts_with("name of channel ")) {
@@ -142,7 +137,7 @@ IsoMmeHeader parse_iso_mme_header(std::string_view text, const std::string& path
     if (header.lines.size() >= kMostLines)
       throw InvalidInput(
           fmt::format("{}:{}: more than {} header lines: not an ISO-MME header", path, lines.number(), kMostLines));
-    header.lines.push_back({to_utf8(with_single_blanks(line.substr(0, colon))),
+    header.lines.push_back({to_utf8(name_in(line.substr(0, colon))),
                             to_utf8(trimmed(line.substr(colon + 1)).substr(0, kLongestValue)), ends(line)});
   }
   header.data_line = lines.number();

@@ -38,4 +38,10 @@ struct LsdynaLines {
 };
 void read_lsdyna_lines(const LsdynaLines& database, const LsdynaInput& input, TraceSet& set, const Choose& choose);
 
+/// LsdynaDatabase::read of such a database.
+template <auto Parse, auto Describe>
+void read_lines(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
+  read_lsdyna_lines({Parse, Describe}, input, set, choose);
+}
+
 }  // namespace crashsim::io

@@ -71,10 +71,6 @@ Trace describe_glstat(LsdynaSlot slot, const LsdynaHeader&) {
   return lsdyna_trace({"glstat", variable}, entity, snake_case(slot.entity));
 }
 
-void read_glstat(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
-  read_lsdyna_lines({parse_glstat, describe_glstat}, input, set, choose);
-}
-
 // ---- matsum: " time =   4.8730E-03", " mat.#=   10             inten=   0.0000E+00     kinen=   0.0000E+00"
 
 constexpr std::string_view kPart = "mat.#";
@@ -152,13 +148,9 @@ Trace describe_matsum(LsdynaSlot slot, const LsdynaHeader& header) {
   return lsdyna_trace({"matsum", variable}, slot.entity, header.title_of(slot.entity));
 }
 
-void read_matsum(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
-  read_lsdyna_lines({parse_matsum, describe_matsum}, input, set, choose);
-}
-
 }  // namespace
 
-const LsdynaDatabase kGlstat = {"glstat", marks_glstat, read_glstat};
-const LsdynaDatabase kMatsum = {"matsum", marks_matsum, read_matsum};
+const LsdynaDatabase kGlstat = {"glstat", marks_glstat, read_lines<parse_glstat, describe_glstat>};
+const LsdynaDatabase kMatsum = {"matsum", marks_matsum, read_lines<parse_matsum, describe_matsum>};
 
 }  // namespace crashsim::io

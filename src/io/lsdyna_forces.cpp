@@ -111,10 +111,6 @@ Trace describe_rcforc(LsdynaSlot slot, const LsdynaHeader& header) {
                       title.empty() ? "" : fmt::format("{} {}", title, side));
 }
 
-void read_rcforc(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
-  read_lsdyna_lines({parse_rcforc, describe_rcforc}, input, set, choose);
-}
-
 // ---- rwforc: " 4.87301E-03       1   1.234567E+00   0.000000E+00   0.000000E+00   0.000000E+00"
 
 bool is_wall_header(std::string_view line) {
@@ -155,10 +151,6 @@ void parse_rwforc(CompleteLines& lines, LsdynaSlots& slots) {
 
 Trace describe_rwforc(LsdynaSlot slot, const LsdynaHeader& header) {
   return lsdyna_trace({"rwforc", slot.variable}, slot.entity, header.title_of(slot.entity));
-}
-
-void read_rwforc(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
-  read_lsdyna_lines({parse_rwforc, describe_rwforc}, input, set, choose);
 }
 
 // ---- secforc: three lines a section: number, time, forces; "ac ID =   33377" or "global system", moments; centroid,
@@ -208,14 +200,10 @@ Trace describe_secforc(LsdynaSlot slot, const LsdynaHeader& header) {
   return lsdyna_trace({"secforc", slot.variable}, slot.entity, header.title_of(slot.entity));
 }
 
-void read_secforc(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
-  read_lsdyna_lines({parse_secforc, describe_secforc}, input, set, choose);
-}
-
 }  // namespace
 
-const LsdynaDatabase kRcforc = {"rcforc", marks_rcforc, read_rcforc};
-const LsdynaDatabase kRwforc = {"rwforc", is_wall_header, read_rwforc};
-const LsdynaDatabase kSecforc = {"secforc", marks_secforc, read_secforc};
+const LsdynaDatabase kRcforc = {"rcforc", marks_rcforc, read_lines<parse_rcforc, describe_rcforc>};
+const LsdynaDatabase kRwforc = {"rwforc", is_wall_header, read_lines<parse_rwforc, describe_rwforc>};
+const LsdynaDatabase kSecforc = {"secforc", marks_secforc, read_lines<parse_secforc, describe_secforc>};
 
 }  // namespace crashsim::io

@@ -89,12 +89,8 @@ Trace describe(LsdynaSlot slot, const LsdynaHeader& header) {
   return lsdyna_trace({"rbdout", slot.variable}, slot.entity, header.title_of(slot.entity));
 }
 
-void read(const LsdynaInput& input, TraceSet& set, const Choose& choose) {
-  read_lsdyna_lines({parse_rbdout, describe}, input, set, choose);
-}
-
 }  // namespace
 
-const LsdynaDatabase kRbdout = {"rbdout", marks_rbdout, read};
+const LsdynaDatabase kRbdout = {"rbdout", marks_rbdout, read_lines<parse_rbdout, describe>};
 
 }  // namespace crashsim::io

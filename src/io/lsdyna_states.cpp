@@ -11,10 +11,6 @@
 namespace crashsim::io {
 namespace {
 
-void scale(std::vector<double>& values, double factor) {
-  if (factor != 1.0) std::for_each(values.begin(), values.end(), [factor](double& value) { value *= factor; });
-}
-
 std::string count_of(std::size_t n, const std::string& what) {
   return n == 1 ? fmt::format("one {}", what) : fmt::format("{} {}s", n, what);
 }

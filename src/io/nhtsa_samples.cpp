@@ -11,6 +11,7 @@
 
 #include "io/input_file.hpp"
 #include "io/last_line.hpp"
+#include "io/unit_system.hpp"
 #include "number.hpp"
 #include "text.hpp"
 
@@ -177,9 +178,7 @@ void read_nhtsa_samples(const NhtsaChannel& c, const std::string& path, NhtsaClo
   }
   compare_with_declared(c, rows, path, trace, set);
   set_times(c, rows, path, clocks, trace, set);
-  const auto unit = find_unit(c.y_unit);
-  if (unit && unit->to_si != 1.0)
-    for (double& value : rows.values) value *= unit->to_si;
+  if (const auto unit = find_unit(c.y_unit)) scale(rows.values, unit->to_si);
   trace.values = std::move(rows.values);
   trace.has_samples = true;
 }

@@ -17,6 +17,7 @@
 
 #include "io/nhtsa_status.hpp"
 #include "io/reader.hpp"
+#include "io/unit_system.hpp"
 #include "text.hpp"
 
 namespace crashsim::io {
@@ -325,10 +326,8 @@ void read_samples(std::string_view bytes, const Uds& uds, const Channel& channel
   const auto back = std::adjacent_find(x.begin(), x.end(), [](double a, double b) { return !(a < b); });
   if (back != x.end() && trace.problem.empty())
     trace.problem = fmt::format("{}: time does not increase after sample {}", uds.set.path, back - x.begin() + 1);
-  if (const auto unit = unit_of(channel.x_unit); unit && unit->to_si != 1.0)
-    for (double& value : x) value *= unit->to_si;
-  if (const auto unit = unit_of(trace.source_unit); unit && unit->to_si != 1.0)
-    for (double& value : y) value *= unit->to_si;
+  if (const auto unit = unit_of(channel.x_unit)) scale(x, unit->to_si);
+  if (const auto unit = unit_of(trace.source_unit)) scale(y, unit->to_si);
   trace.time_s = std::make_shared<const std::vector<double>>(std::move(x));
   trace.values = std::move(y);
   trace.has_samples = true;

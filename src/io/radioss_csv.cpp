@@ -176,15 +176,12 @@ TraceSet read(const InputFile& file, const ReadOptions& options, const Choose& c
   for (const std::size_t i : chosen) wanted[i + 1] = true;
   auto columns = read_columns(file.bytes(), layout, wanted, 0, file.path());
   warn_when_open_ended(file.bytes(), set);
-  const auto scale = [&](std::vector<double>& values, const Head& head) {
-    const double factor = head.unit ? head.unit->to_si : to_si(system, head.dimension);
-    if (factor != 1.0) std::for_each(values.begin(), values.end(), [&](double& value) { value *= factor; });
-  };
-  scale(columns[0], heads[0]);
+  const auto unit_of = [&](const Head& head) { return head.unit ? head.unit->to_si : to_si(system, head.dimension); };
+  scale(columns[0], unit_of(heads[0]));
   const auto time_s = std::make_shared<const std::vector<double>>(std::move(columns[0]));
   for (const std::size_t i : chosen) {
     Trace& trace = set.traces[i];
-    scale(columns[i + 1], heads[i + 1]);
+    scale(columns[i + 1], unit_of(heads[i + 1]));
     trace.values = std::move(columns[i + 1]);
     trace.time_s = time_s;
     trace.has_samples = true;

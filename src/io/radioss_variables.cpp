@@ -233,13 +233,6 @@ RadiossVariable radioss_group_variable(int kind, int code) {
   }
 }
 
-std::string with_single_blanks(std::string_view text) {
-  std::string single;
-  for (const char c : trimmed(text))
-    if (!is_blank(c) || single.back() != ' ') single += is_blank(c) ? ' ' : c;
-  return single;
-}
-
 Trace radioss_trace(const std::string& entity, const std::string& variable, Dimension dimension, std::size_t column) {
   Trace trace;
   trace.id = std::to_string(column);

@@ -26,9 +26,6 @@ RadiossVariable radioss_part_variable(int code);
 /// contacts, sections and rigid bodies are the run's cumulative impulses.
 RadiossVariable radioss_group_variable(int kind, int code);
 
-/// The text without blanks at its ends, and runs of blanks made one.
-std::string with_single_blanks(std::string_view text);
-
 /// A trace without samples: "LEFT_REAR_VX", or the variable alone for the whole model (no entity).
 /// @param column of the table that the converter makes: the first variable stands in 2, after time.
 Trace radioss_trace(const std::string& entity, const std::string& variable, Dimension dimension, std::size_t column);

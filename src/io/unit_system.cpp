@@ -159,6 +159,11 @@ double to_si(const UnitSystem& system, Dimension dimension) {
   return std::pow(system.mass_kg, e.mass) * std::pow(system.length_m, e.length) * std::pow(system.time_s, e.time);
 }
 
+void scale(std::vector<double>& values, double factor) {
+  if (factor == 1.0) return;
+  for (double& value : values) value *= factor;
+}
+
 Dimension fe_dimension(std::string_view variable) {
   static constexpr std::pair<std::string_view, Dimension> kExact[] = {
       {"TIME", Dimension::time},           {"TIME STEP", Dimension::time},

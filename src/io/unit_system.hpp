@@ -23,6 +23,9 @@ UnitSystem parse_unit_system(const std::string& name);
 /// SI value of one unit of a dimension.
 double to_si(const UnitSystem& system, Dimension dimension);
 
+/// Multiplies every value by a factor.
+void scale(std::vector<double>& values, double factor);
+
 /// What a finite-element variable measures, by the name that FE codes give it: DX VY AZ (motion), FNX (force), IE KE HE
 /// (energy), XMOM (momentum), MASS, time. unknown for others.
 Dimension fe_dimension(std::string_view variable);
