@@ -1,7 +1,6 @@
 # Everything crashsim is built with, found in one place.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(fmt 9 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(tomlplusplus 3.3 REQUIRED CONFIG)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
@@ -11,25 +10,27 @@ add_library(crashsim_toml INTERFACE)
 target_include_directories(crashsim_toml SYSTEM INTERFACE
   $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_INCLUDE_DIRECTORIES>)
 
-# crashsim::sundials and crashsim::nlopt: the same names whether packaged or built from source packages.
+# crashsim::sundials, crashsim::nlopt and crashsim::fmt: the same names whether packaged or built from source packages.
 if(CRASHSIM_DEPS STREQUAL "source")
   execute_process(COMMAND ${PROJECT_SOURCE_DIR}/script/build-deps OUTPUT_VARIABLE CRASHSIM_DEPS_PREFIX
                   OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
   if(failed)
-    message(FATAL_ERROR "CRASHSIM_DEPS=source: script/build-deps could not make SUNDIALS and NLopt (see above); "
+    message(FATAL_ERROR "CRASHSIM_DEPS=source: script/build-deps could not make SUNDIALS, NLopt and fmt (see above); "
                         "use -DCRASHSIM_DEPS=system for the packaged libraries")
   endif()
-  message(STATUS "SUNDIALS and NLopt from ${CRASHSIM_DEPS_PREFIX}")
+  message(STATUS "SUNDIALS, NLopt and fmt from ${CRASHSIM_DEPS_PREFIX}")
   set(CRASHSIM_DEPS_LIBDIR ${CRASHSIM_DEPS_PREFIX}/lib)
   include(SourceDependencies)
-  target_include_directories(crashsim::sundials INTERFACE ${CRASHSIM_DEPS_PREFIX}/include)
-  target_include_directories(crashsim::nlopt INTERFACE ${CRASHSIM_DEPS_PREFIX}/include)
+  foreach(dependency IN ITEMS sundials nlopt fmt)
+    target_include_directories(crashsim::${dependency} INTERFACE ${CRASHSIM_DEPS_PREFIX}/include)
+  endforeach()
 elseif(CRASHSIM_DEPS STREQUAL "system")
   find_package(SUNDIALS REQUIRED CONFIG COMPONENTS cvodes)  # no version here: its config refuses a newer major one
   if(SUNDIALS_VERSION VERSION_LESS 6.4)
     message(FATAL_ERROR "SUNDIALS ${SUNDIALS_VERSION} in ${SUNDIALS_DIR}: 6.4 or later is needed")
   endif()
   find_package(NLopt 2.7 REQUIRED CONFIG)
+  find_package(fmt 9 REQUIRED CONFIG)
   include(SystemDependencies)
 else()
   message(FATAL_ERROR "CRASHSIM_DEPS=${CRASHSIM_DEPS}: must be system or source")

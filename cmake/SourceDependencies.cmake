@@ -1,4 +1,4 @@
-# crashsim::sundials and crashsim::nlopt from the archives in CRASHSIM_DEPS_LIBDIR. Also part of the installed package.
+# crashsim::sundials, crashsim::nlopt and crashsim::fmt from the archives in CRASHSIM_DEPS_LIBDIR. Also part of the installed package.
 if(NOT TARGET crashsim::sundials)
   add_library(crashsim::sundials STATIC IMPORTED)
   set_target_properties(crashsim::sundials PROPERTIES IMPORTED_LOCATION ${CRASHSIM_DEPS_LIBDIR}/libsundials_cvodes.a)
@@ -9,4 +9,6 @@ if(NOT TARGET crashsim::sundials)
   add_library(crashsim::nlopt STATIC IMPORTED)
   set_target_properties(crashsim::nlopt PROPERTIES IMPORTED_LOCATION ${CRASHSIM_DEPS_LIBDIR}/libnlopt.a)
   target_link_libraries(crashsim::nlopt INTERFACE m)
+  add_library(crashsim::fmt STATIC IMPORTED)
+  set_target_properties(crashsim::fmt PROPERTIES IMPORTED_LOCATION ${CRASHSIM_DEPS_LIBDIR}/libfmt.a)
 endif()
