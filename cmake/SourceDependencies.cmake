@@ -10,5 +10,7 @@ if(NOT TARGET crashsim::sundials)
   set_target_properties(crashsim::nlopt PROPERTIES IMPORTED_LOCATION ${CRASHSIM_DEPS_LIBDIR}/libnlopt.a)
   target_link_libraries(crashsim::nlopt INTERFACE m)
   add_library(crashsim::fmt STATIC IMPORTED)
-  set_target_properties(crashsim::fmt PROPERTIES IMPORTED_LOCATION ${CRASHSIM_DEPS_LIBDIR}/libfmt.a)
+  # FMT_SHARED says nothing here but "visible"; as the package has it, so that both ways share compiled objects.
+  set_target_properties(crashsim::fmt PROPERTIES IMPORTED_LOCATION ${CRASHSIM_DEPS_LIBDIR}/libfmt.a
+                                                 INTERFACE_COMPILE_DEFINITIONS FMT_SHARED)
 endif()

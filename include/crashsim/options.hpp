@@ -113,7 +113,7 @@ struct Field {
   Range range = any_number();
 };
 
-/// The table of an options struct: specialised as a constexpr array of Field<S> beside each struct.
+/// The table of an options struct: specialised as a constexpr array of `Field<S>` beside each struct.
 template <class S>
 inline constexpr std::span<const Field<S>> fields{};
 
