@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the picture of the README from a case directory: test and model, total force and its parts.
 
-    python3 docs/plot_case.py out/fe-car docs/fe-car.png        (needs matplotlib)
+python3 docs/plot_case.py out/fe-car docs/fe-car.png        (needs matplotlib)
 """
 
 import csv
@@ -48,8 +48,9 @@ def main(case, picture):
         t = scaled(columns["time_s"], 1e3)
         axes[0].plot(t, scaled(columns["accel_mps2"], 1 / G), color=color, lw=width, label=label)
         axes[1].plot(t, columns["velocity_mps"], color=color, lw=width, label=f"velocity, {label}")
-        axes[1].plot(t, scaled(columns["displacement_m"], 10), color=color, lw=width, ls="--",
-                     label=f"crush x 10, {label}")
+        axes[1].plot(
+            t, scaled(columns["displacement_m"], 10), color=color, lw=width, ls="--", label=f"crush x 10, {label}"
+        )
     axes[0].set(xlabel="time [ms]", ylabel="acceleration [g]", title="Pulse")
     axes[1].set(xlabel="time [ms]", ylabel="velocity [m/s], 10 x crush [m]", title="Velocity and crush")
     for axis in axes[:2]:
@@ -59,12 +60,20 @@ def main(case, picture):
     mass = summary["mass_kg"]
     pushing = before(model, t_m)
     measured = before(test, t_m)
-    axes[2].plot(scaled(measured["displacement_m"], 1e3), scaled(measured["accel_mps2"], -mass / 1e3), color=TEST, lw=2.2,
-                 label="test, -m a")
+    axes[2].plot(
+        scaled(measured["displacement_m"], 1e3),
+        scaled(measured["accel_mps2"], -mass / 1e3),
+        color=TEST,
+        lw=2.2,
+        label="test, -m a",
+    )
     total = [s + d for s, d in zip(pushing["spring_force_n"], pushing["damper_force_n"])]
     crush = scaled(pushing["displacement_m"], 1e3)
-    for force, color, label in ((total, MODEL, "model, total"), (pushing["spring_force_n"], SPRING, "spring"),
-                                (pushing["damper_force_n"], DAMPER, "damper")):
+    for force, color, label in (
+        (total, MODEL, "model, total"),
+        (pushing["spring_force_n"], SPRING, "spring"),
+        (pushing["damper_force_n"], DAMPER, "damper"),
+    ):
         axes[2].plot(crush, scaled(force, 1e-3), color=color, lw=1.4, label=label)
     axes[2].set(xlabel="crush [mm]", ylabel="force [kN]", title="Force over crush")
     axes[2].legend(loc="best")

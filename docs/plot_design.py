@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws a design study from its folder: the trade-off curve, the parameters along it, and the sensitivities.
 
-    python3 docs/plot_design.py design design.png        (needs matplotlib)
+python3 docs/plot_design.py design design.png        (needs matplotlib)
 """
 
 import csv
@@ -34,12 +34,24 @@ def read_table(path):
 
 def draw_curve(axis, rows, comments, result):
     limited, minimised = RESPONSES[comments["limited"]], RESPONSES[comments["minimised"]]
-    axis.plot([limited[1] * float(row[limited[0]]) for row in rows],
-              [minimised[1] * float(row[minimised[0]]) for row in rows], "o-", color=COLORS[0], label="best under the limit")
+    axis.plot(
+        [limited[1] * float(row[limited[0]]) for row in rows],
+        [minimised[1] * float(row[minimised[0]]) for row in rows],
+        "o-",
+        color=COLORS[0],
+        label="best under the limit",
+    )
     for key, marker, color, label in (("before", "s", "#4d4d4d", "given"), ("after", "*", COLORS[1], "optimum")):
         responses = result[key]
-        axis.plot(limited[1] * responses[limited[0]], minimised[1] * responses[minimised[0]], marker, ms=11, color=color,
-                  ls="none", label=label)
+        axis.plot(
+            limited[1] * responses[limited[0]],
+            minimised[1] * responses[minimised[0]],
+            marker,
+            ms=11,
+            color=color,
+            ls="none",
+            label=label,
+        )
     axis.set(xlabel=limited[2], ylabel=minimised[2], title="Trade-off")
     axis.legend()
 
@@ -48,9 +60,13 @@ def draw_parameters(axis, rows, comments, result):
     limited = RESPONSES[comments["limited"]]
     for color, parameter in zip(COLORS, result["parameters"]):
         lower, upper = parameter["lower"], parameter["upper"]
-        axis.plot([limited[1] * float(row[limited[0]]) for row in rows],
-                  [(float(row[parameter["name"]]) - lower) / (upper - lower) for row in rows], "o-", color=color,
-                  label=f"{parameter['name']} ({lower:g} to {upper:g})")
+        axis.plot(
+            [limited[1] * float(row[limited[0]]) for row in rows],
+            [(float(row[parameter["name"]]) - lower) / (upper - lower) for row in rows],
+            "o-",
+            color=color,
+            label=f"{parameter['name']} ({lower:g} to {upper:g})",
+        )
     axis.set(xlabel=limited[2], ylabel="between bounds", ylim=(-0.05, 1.05), title="Parameters along the curve")
     axis.legend(fontsize=7)
 
@@ -61,11 +77,15 @@ def draw_sensitivities(axis, rows):
     height = 0.8 / len(parameters)
     for i, (color, parameter) in enumerate(zip(COLORS, parameters)):
         values = [float(row["percent_per_percent"] or "nan") for row in rows if row["parameter"] == parameter]
-        axis.barh([r + (i - (len(parameters) - 1) / 2) * height for r in range(len(responses))], values, height,
-                  color=color, label=parameter)
+        axis.barh(
+            [r + (i - (len(parameters) - 1) / 2) * height for r in range(len(responses))],
+            values,
+            height,
+            color=color,
+            label=parameter,
+        )
     axis.axvline(0, color="0.7", lw=0.8)
-    axis.set(yticks=range(len(responses)), yticklabels=responses, xlabel="% per %",
-             title="Sensitivities, given model")
+    axis.set(yticks=range(len(responses)), yticklabels=responses, xlabel="% per %", title="Sensitivities, given model")
     axis.invert_yaxis()
     axis.legend(fontsize=7)
 

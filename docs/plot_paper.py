@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the figures of the paper from a case directory made of data/paper/case.toml.
 
-    python3 docs/plot_paper.py out/paper data/fe-car/C56.csv docs/paper.png        (needs matplotlib)
+python3 docs/plot_paper.py out/paper data/fe-car/C56.csv docs/paper.png        (needs matplotlib)
 """
 
 import csv
@@ -13,7 +13,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from plot_case import G, MODEL, TEST, before, read_columns, scaled
+from plot_case import MODEL, TEST, G, before, read_columns, scaled
 
 COUPLED = "#d55e00"
 DISTANCE_MM = 846.7  # between the middle and the rear nodes
@@ -33,8 +33,10 @@ def measured_motion(path):
     time = [1e3 * float(row[names["time"]]) for row in rows]
     pitch = [(rear - middle) / DISTANCE_MM for rear, middle in zip(mean("REAR", "DZ"), mean("MID", "DZ"), strict=True)]
     share = CG_MM / DISTANCE_MM
-    velocity = [1e-3 * (rear + share * (middle - rear))
-                for rear, middle in zip(mean("REAR", "VZ"), mean("MID", "VZ"), strict=True)]
+    velocity = [
+        1e-3 * (rear + share * (middle - rear))
+        for rear, middle in zip(mean("REAR", "VZ"), mean("MID", "VZ"), strict=True)
+    ]
     return time, pitch, velocity
 
 
@@ -42,8 +44,11 @@ def plot_motion(axes, case, t_m):
     """Figures 6 to 8: acceleration, velocity, displacement."""
     test = before(read_columns(case / "pulse.csv"), 1.25 * t_m)
     model = before(read_columns(case / "response.csv"), 1.25 * t_m)
-    channels = (("accel_mps2", 1 / G, "acceleration [g]"), ("velocity_mps", 1, "velocity [m/s]"),
-                ("displacement_m", 1e3, "displacement [mm]"))
+    channels = (
+        ("accel_mps2", 1 / G, "acceleration [g]"),
+        ("velocity_mps", 1, "velocity [m/s]"),
+        ("displacement_m", 1e3, "displacement [mm]"),
+    )
     for axis, (name, factor, label) in zip(axes, channels, strict=True):
         for columns, color, who in ((test, TEST, "finite elements"), (model, MODEL, "model")):
             axis.plot(scaled(columns["time_s"], 1e3), scaled(columns[name], factor), color=color, label=who)
@@ -65,8 +70,9 @@ def plot_pitch(axes, case, trace):
     time, pitch, velocity = measured_motion(trace)
     phases, coupled = read_columns(case / "pitch.csv"), read_columns(case / "coupled.csv")
     for axis, test, name, factor, label in (
-            (axes[0], [57.2958 * angle for angle in pitch], "pitch_rad", 57.2958, "pitch, nose down [deg]"),
-            (axes[1], velocity, "heave_velocity_mps", 1, "vertical velocity [m/s]")):
+        (axes[0], [57.2958 * angle for angle in pitch], "pitch_rad", 57.2958, "pitch, nose down [deg]"),
+        (axes[1], velocity, "heave_velocity_mps", 1, "vertical velocity [m/s]"),
+    ):
         axis.plot(time, test, color=TEST, label="finite elements")
         axis.plot(scaled(phases["time_s"], 1e3), scaled(phases[name], factor), color=MODEL, label="two phases")
         axis.plot(scaled(coupled["time_s"], 1e3), scaled(coupled[name], factor), color=COUPLED, label="coupled")
