@@ -136,7 +136,8 @@ def test_a_design_is_the_command_lines(tmp_path: Path) -> None:
 
 
 def test_a_progress_function_stops_a_design() -> None:
-    stopped = crashsim.design(neon(), progress=lambda done, total: False, **NEON | {"starts": 50})
+    options: dict[str, Any] = {**NEON, "starts": 50}
+    stopped = crashsim.design(neon(), progress=lambda done, total: False, **options)
     assert stopped.outcome == "interrupted" and not stopped.usable
 
 
@@ -147,9 +148,10 @@ def test_control_c_stops_a_design_within_a_second() -> None:
         pressed.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
 
+    options: dict[str, Any] = {**NEON, "starts": 1000}
     threading.Timer(0.2, press).start()
     with pytest.raises(KeyboardInterrupt):
-        crashsim.design(neon(), **NEON | {"starts": 1000})
+        crashsim.design(neon(), **options)
     assert time.monotonic() - pressed[0] < 1.0
 
 

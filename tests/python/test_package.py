@@ -7,6 +7,7 @@ import ast
 import json
 import logging
 import math
+import re
 import subprocess
 import sys
 import threading
@@ -91,6 +92,16 @@ def test_step_by_step_gives_the_numbers_of_the_case(pulse: crashsim.Pulse) -> No
     fit = crashsim.identify(pulse, starts=study.options["identify.starts"], seed=study.options["identify.seed"])
     assert fit.model.spring == result.identification.model.spring
     assert fit.error == result.identification.error
+
+
+def test_the_readmes_example_runs_word_for_word() -> None:
+    readme = (support.ROOT / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"^```python\n(.*?)^```$", readme, flags=re.MULTILINE | re.DOTALL)
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", example], cwd=support.ROOT, capture_output=True, text=True, check=True
+    )
+    assert "spring and damper are not separable from one speed" in done.stdout
+    assert "crush 0.5412 m at 105.59 ms" in done.stdout and "Rating(overall=0.912" in done.stdout
 
 
 def test_wrong_words_are_explained(pulse: crashsim.Pulse) -> None:

@@ -87,8 +87,9 @@ def test_pitch_is_the_command_lines(tmp_path: Path) -> None:
         *("--channel", "barrier_impulse_FTZ", "--velocity", "LEFT_REAR_VX", "-o", tmp_path / "pitch.csv"),
     )
     printed = json.loads((DATA / "paper" / "table1.json").read_text(encoding="utf-8"))
-    known = {name: printed[name] for name in crashsim.HeavePitchModel._fields if name in printed}
-    body = crashsim.HeavePitchModel(**known | {"mass_kg": "2582 kg", "force_arm_m": "1.7 m"})
+    known: dict[str, Any] = {name: printed[name] for name in crashsim.HeavePitchModel._fields if name in printed}
+    known |= {"mass_kg": "2582 kg", "force_arm_m": "1.7 m"}
+    body = crashsim.HeavePitchModel(**known)
     forcing = crashsim.read_forcing(FE_CAR, **channels)  # type: ignore[arg-type]
     run = crashsim.simulate_pitch(body, forcing)
     for name in ("outcome", "pitch_max_rad", "pitch_max_time_s", "heave_min_m", "heave_velocity_min_mps"):
