@@ -10,6 +10,7 @@
 #include <crashsim/model_io.hpp>
 #include <crashsim/outputs.hpp>
 #include <crashsim/record.hpp>
+#include <crashsim/vehicle_io.hpp>
 
 #include "bindings.hpp"
 #include "keywords.hpp"
@@ -23,8 +24,24 @@ Record record_of(const std::string& function, const std::vector<std::string>& in
   return make_record("python " + function, {}, {}, inputs);
 }
 
-void bind_writers(py::module_& module) {
-  const char* common = R"(
+/// The files that a result was read from.
+std::vector<std::string> inputs_of(const Pulse& pulse) { return pulse.input_files; }
+std::vector<std::string> inputs_of(const LoadCellWall& wall) { return wall.input_files; }
+template <class Result>
+std::vector<std::string> inputs_of(const Result&) {
+  return {};
+}
+
+/// Binds `function(result, path, *, overwrite)`, which writes the text that `format(result, record)` makes of it.
+template <class Result, class Format>
+void bind_writer(py::module_& module, const char* function, const std::string& doc, Format format) {
+  module.def(
+      function,
+      [function, format](const Result& result, const py::object& path, bool overwrite) {
+        write_file_atomically(path_text(path), format(result, record_of(function, inputs_of(result))), overwrite);
+      },
+      py::arg("result"), py::arg("path"), py::kw_only(), py::arg("overwrite") = false,
+      (doc + R"(
 path : str or os.PathLike
     File to write, whole or not at all.
 overwrite : bool
@@ -36,44 +53,102 @@ InvalidInput
     When the file is there and `overwrite` is false.
 SystemFailure
     With path and reason when it cannot be written.
-)";
-  module.def(
-      "write_pulse",
-      [](const Pulse& pulse, const py::object& path, bool overwrite) {
-        write_file_atomically(path_text(path), format_pulse(pulse, record_of("write_pulse", pulse.input_files)),
-                              overwrite);
-      },
-      py::arg("pulse"), py::arg("path"), py::kw_only(), py::arg("overwrite") = false,
-      (std::string(
-           "Writes a pulse as ``pulse.csv``, which read_pulse gives back.\n\nParameters\n----------\npulse : Pulse") +
-       common)
+)")
           .c_str());
+}
+
+std::string taking(const std::string& what, const std::string& type) {
+  return what + "\n\nParameters\n----------\nresult : " + type;
+}
+
+void bind_motion_writers(py::module_& module) {
+  bind_writer<Pulse>(module, "write_pulse",
+                     taking("Writes a pulse as ``pulse.csv``, which read_pulse gives back.", "Pulse"),
+                     [](const Pulse& pulse, const Record& record) { return format_pulse(pulse, record); });
+  bind_writer<PitchResponse>(
+      module, "write_pitch", taking("Writes heave and pitch as ``pitch.csv``.", "PitchResponse"),
+      [](const PitchResponse& response, const Record& record) { return format_pitch(response, record); });
+  bind_writer<CoupledResponse>(
+      module, "write_coupled", taking("Writes a coupled motion as ``coupled.csv``.", "CoupledResponse"),
+      [](const CoupledResponse& response, const Record& record) { return format_coupled(response, record); });
+  bind_writer<LoadCellWall>(module, "write_wall",
+                            taking("Writes the forces of a wall as ``wall.csv``.", "LoadCellWall"),
+                            [](const LoadCellWall& wall, const Record& record) { return format_wall(wall, record); });
+  bind_writer<Comparison>(
+      module, "write_comparison", taking("Writes a comparison as ``rating.json``.", "Comparison"),
+      [](const Comparison& comparison, const Record& record) { return format_comparison(comparison, record); });
+}
+
+void bind_model_writers(py::module_& module) {
+  bind_writer<py::object>(
+      module, "write_model",
+      taking("Writes a model as ``model.json``, which read_model gives back; of an identification also what it says of "
+             "the model.",
+             "CrushModel or Identification"),
+      [](const py::object& model, const Record& record) {
+        if (!py::isinstance<Identification>(model))
+          return format_model(model.cast<const CrushModel&>(), nullptr, &record);
+        const auto& fit = model.cast<const Identification&>();
+        return format_model(fit.model, &fit, &record);
+      });
+  bind_writer<py::object>(
+      module, "write_vehicle",
+      taking(
+          "Writes a vehicle as ``vehicle.json``, which read_vehicle gives back; of an identification also what it says "
+          "of the vehicle.",
+          "HeavePitchModel or PitchIdentification"),
+      [](const py::object& model, const Record& record) {
+        if (!py::isinstance<PitchIdentification>(model))
+          return format_vehicle(model.cast<const HeavePitchModel&>(), nullptr, &record);
+        const auto& fit = model.cast<const PitchIdentification&>();
+        return format_vehicle(fit.model, &fit, &record);
+      });
+  module.def(
+      "read_vehicle", [](const py::object& path) { return read_vehicle(path_text(path)); }, py::arg("path"),
+      R"(Reads a vehicle from a ``vehicle.json`` or the [vehicle] table of a TOML file; what it does not say stays unset.
+
+Parameters
+----------
+path : str or os.PathLike
+
+Returns
+-------
+HeavePitchModel
+
+Raises
+------
+InvalidInput
+    With path, key, value and rule when it is missing, another kind of file, or has a bad value.
+)");
+}
+
+void bind_response_writer(py::module_& module) {
   module.def(
       "write_response",
       [](const CrushResponse& response, const py::object& path, double mass_kg, bool overwrite) {
         write_file_atomically(path_text(path), format_response(response, mass_kg, record_of("write_response", {})),
                               overwrite);
       },
-      py::arg("response"), py::arg("path"), py::arg("mass_kg") = kUnset, py::kw_only(), py::arg("overwrite") = false,
-      (std::string("Writes a simulation as ``response.csv``.\n\nParameters\n----------\nresponse : CrushResponse\n"
-                   "mass_kg : float, optional\n    Test mass [kg].") +
-       common)
-          .c_str());
-  module.def(
-      "write_model",
-      [](const py::object& model, const py::object& path, bool overwrite) {
-        const Record record = record_of("write_model", {});
-        const std::string text =
-            py::isinstance<Identification>(model)
-                ? format_model(model.cast<const Identification&>().model, &model.cast<const Identification&>(), &record)
-                : format_model(model.cast<const CrushModel&>(), nullptr, &record);
-        write_file_atomically(path_text(path), text, overwrite);
-      },
-      py::arg("model"), py::arg("path"), py::kw_only(), py::arg("overwrite") = false,
-      (std::string("Writes a model as ``model.json``, which read_model gives back; of an identification also what it "
-                   "says of the model.\n\nParameters\n----------\nmodel : CrushModel or Identification") +
-       common)
-          .c_str());
+      py::arg("result"), py::arg("path"), py::arg("mass_kg") = kUnset, py::kw_only(), py::arg("overwrite") = false,
+      R"(Writes a simulation as ``response.csv``.
+
+Parameters
+----------
+result : CrushResponse
+path : str or os.PathLike
+    File to write, whole or not at all.
+mass_kg : float, optional
+    Test mass [kg].
+overwrite : bool
+    Replace a file that is there.
+
+Raises
+------
+InvalidInput
+    When the file is there and `overwrite` is false.
+SystemFailure
+    With path and reason when it cannot be written.
+)");
 }
 
 void bind_iso_mme(py::module_& module) {
@@ -115,7 +190,9 @@ SystemFailure
 }  // namespace
 
 void bind_files(py::module_& module) {
-  bind_writers(module);
+  bind_motion_writers(module);
+  bind_response_writer(module);
+  bind_model_writers(module);
   bind_iso_mme(module);
   module.def(
       "export_model",

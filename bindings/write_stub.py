@@ -67,7 +67,6 @@ OBJECTS = {
     "force": FORCE,
     "jobs": "int",
     "key": "str | int",
-    "model": "CrushModel | Identification",
     "motion": MOTION,
     "progress": "Progress",
     "pulses": "Pulse | Sequence[Pulse]",
@@ -85,6 +84,8 @@ OF_FUNCTIONS = {  # where a name means something else
     ("identify_vertical", "target"): "VerticalForceTarget | MeasuredVertical",
     ("metrics", "motion"): MOTION,
     ("make_pulse", "time_s"): "TraceSet | ArrayLike",
+    ("write_model", "result"): "CrushModel | Identification",
+    ("write_vehicle", "result"): "HeavePitchModel | PitchIdentification",
     ("__contains__", "arg0"): "object",
 }
 RETURNS = {

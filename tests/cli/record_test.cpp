@@ -10,6 +10,7 @@
 #include <crashsim/crashsim.hpp>
 #include <crashsim/files.hpp>
 
+#include "support/source_dir.hpp"
 #include "support/workspace.hpp"
 
 namespace crashsim {
@@ -183,6 +184,15 @@ TEST_F(Recorded, ThePapersCaseRunAgainGivesTheSameFiles) {
   EXPECT_EQ(workspace.names("second"), names);
   for (const std::string& name : names)
     EXPECT_EQ(workspace.text_of("second/" + name), workspace.text_of("first/" + name)) << name;
+}
+
+TEST_F(Recorded, TheLibraryMakesTheProgramsFiles) {
+  const std::string file = std::string(test::source_dir()) + "/data/fe-car/case.toml";
+  expect_done({"run", file, "-o", "program"});
+  const Case study = read_case(file);
+  const std::vector<FileText> files = case_files(study, run_case(study));
+  EXPECT_EQ(workspace.names("program").size(), files.size());
+  for (const FileText& made : files) EXPECT_EQ(workspace.text_of("program/" + made.name), made.text) << made.name;
 }
 
 TEST_F(Recorded, TheNumberOfThreadsDoesNotShow) {

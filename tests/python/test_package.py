@@ -191,6 +191,15 @@ def test_files_come_back(pulse: crashsim.Pulse, tmp_path: Path) -> None:
     assert crashsim.read_model(tmp_path / "model.json").spring == fit.model.spring
     with pytest.raises(crashsim.InvalidInput, match=r"model\.json"):
         crashsim.write_model(fit.model, tmp_path / "model.json")
+    crashsim.write_vehicle(
+        crashsim.read_vehicle(support.DATA / "paper/table1.json").replace(mass_kg=2582), tmp_path / "v"
+    )
+    assert crashsim.read_vehicle(tmp_path / "v").mass_kg == 2582
+    run = crashsim.simulate(fit.model)
+    crashsim.write_response(run, tmp_path / "response.csv", 1190.02)
+    assert np.array_equal(crashsim.read_pulse(tmp_path / "response.csv", cfc=0).accel_mps2, run.accel_mps2)
+    crashsim.write_comparison(crashsim.compare(pulse, run), tmp_path / "rating.json")
+    assert "channels" in json.loads((tmp_path / "rating.json").read_text(encoding="utf-8"))
     record = crashsim.find_record(tmp_path / "pulse.csv")
     assert record is not None and record["command"] == "python write_pulse"
 

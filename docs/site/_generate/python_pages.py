@@ -12,7 +12,8 @@ TOPICS = {
     "Signals": ("cfc_filter integrate differentiate find_time_zero quantity TimeSeries STANDARD_GRAVITY_MPS2"),
     "Pulses": "read_pulse make_pulse write_pulse Pulse",
     "Load-cell walls": (
-        "read_wall assemble_wall wall_channels wall_numbers check_momentum LoadCellWall WallStrip WallNumbers"
+        "read_wall assemble_wall wall_channels wall_numbers check_momentum write_wall "
+        "LoadCellWall WallStrip WallNumbers"
     ),
     "Crush": (
         "simulate read_model write_model write_response export_model uniform_knots CrushModel "
@@ -20,7 +21,8 @@ TOPICS = {
     ),
     "Identification": ("identify fit_error Identification Verdict FitError OrdinateReport ParameterReport StartReport"),
     "Heave and pitch": (
-        "simulate_pitch identify_pitch read_forcing forcing_of HeavePitchModel Mode "
+        "simulate_pitch identify_pitch read_vehicle write_vehicle write_pitch "
+        "read_forcing forcing_of HeavePitchModel Mode "
         "PitchForcing MeasuredForcing PitchResponse PitchTarget PitchFitError "
         "PitchIdentification"
     ),
@@ -28,9 +30,9 @@ TOPICS = {
         "vertical_force identify_vertical read_vertical_target VerticalForceLaw "
         "VerticalForceTarget MeasuredVertical VerticalIdentification"
     ),
-    "Crush, heave and pitch together": "simulate_coupled CoupledModel GroundContact CoupledResponse",
+    "Crush, heave and pitch together": "simulate_coupled write_coupled CoupledModel GroundContact CoupledResponse",
     "Judgement": (
-        "metrics rate grade errors compare occupant_load_criterion sliding_mean_peak "
+        "metrics rate grade errors compare write_comparison occupant_load_criterion sliding_mean_peak "
         "vehicle_pulse_index acceleration_severity_index kw400 ahof400 crash3_stiffness "
         "energy_equivalent_speed Metrics Olc Crash3 Rating ErrorSummary ChannelComparison "
         "Comparison NamedComparison"
