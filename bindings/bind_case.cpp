@@ -35,16 +35,53 @@ Case case_of(const py::object& given, const py::object& jobs) {
   return study;
 }
 
-/// Runs a case and, with an output folder, writes its files there.
+/// What the functions that run a case take, and what ends them.
+constexpr const char* kRunDoc = R"(
+Parameters
+----------
+case : Case, str or os.PathLike
+    A case or the path of its file.
+output : str or os.PathLike, optional
+    Folder for the files that the program writes, whole or not at all.
+overwrite : bool
+    Replace the folder when it holds nothing but what is written anew.
+jobs : int, optional
+    Threads; 0: all cores. The result does not depend on it.
+progress : callable or tqdm bar, optional
+    ``progress(done, total)`` is called now and then with the starts done; return False to stop. A tqdm bar is moved.
+
+Raises
+------
+InvalidInput
+    On bad options, files or values, or when `output` is there already.
+SystemFailure
+    When it cannot be written.
+KeyboardInterrupt
+    On Ctrl-C; nothing is written.
+
+Returns
+-------
+)";
+
+/// Binds a function that runs a case and, given an output folder, writes its files there: not before Ctrl-C had its
+/// say.
 template <class Run, class Files>
-auto run_into(const Case& study, const py::object& output, bool overwrite, const py::object& progress, Run run,
+void bind_run(py::module_& module, const char* function, const std::string& doc, const char* result, Run run,
               Files files) {
-  const std::string folder = output.is_none() ? "" : path_text(output);
-  return watched(progress, [&](const Progress& told) {
-    auto result = run(study, told);
-    if (!folder.empty()) write_folder_atomically(folder, files(study, result), overwrite);
-    return result;
-  });
+  module.def(
+      function,
+      [run, files](const py::object& given, const py::object& output, bool overwrite, const py::object& jobs,
+                   const py::object& progress) {
+        const Case study = case_of(given, jobs);
+        auto done = watched(progress, [&](const Progress& told) { return run(study, told); });
+        if (!output.is_none()) {
+          const std::string folder = path_text(output);
+          unlocked([&] { write_folder_atomically(folder, files(study, done), overwrite); });
+        }
+        return done;
+      },
+      py::arg("case"), py::arg("output") = py::none(), py::kw_only(), py::arg("overwrite") = false,
+      py::arg("jobs") = py::none(), py::arg("progress") = py::none(), (doc + "\n" + kRunDoc + result + "\n").c_str());
 }
 
 void bind_case_classes(py::module_& module) {
@@ -90,43 +127,10 @@ void bind_design_case(py::module_& module) {
       .field("response", &DesignCaseResult::response, "CoupledResponse of the optimum.")
       .field("notes", &DesignCaseResult::notes, "What a careful reader should know.")
       .def_property_readonly("usable", &DesignCaseResult::usable, "True when the optimum is one to rely on.");
-  module.def(
-      "run_design",
-      [](const py::object& study, const py::object& output, bool overwrite, const py::object& jobs,
-         const py::object& progress) {
-        return run_into(
-            case_of(study, jobs), output, overwrite, progress,
-            [](const Case& what, const Progress& told) { return run_design(what, told); },
-            [](const Case& what, const DesignCaseResult& result) { return design_files(what, result); });
-      },
-      py::arg("case"), py::arg("output") = py::none(), py::kw_only(), py::arg("overwrite") = false,
-      py::arg("jobs") = py::none(), py::arg("progress") = py::none(),
-      R"(Runs a case and the design study that it asks for in ``[design]``.
-
-Parameters
-----------
-case : Case, str or os.PathLike
-    A case or the path of its file.
-output : str or os.PathLike, optional
-    Folder for the files that `crashsim design` writes, whole or not at all.
-overwrite : bool
-    Replace the folder when it holds nothing but what is written anew.
-jobs : int, optional
-    Threads; 0: all cores. The result does not depend on it.
-progress : callable or tqdm bar, optional
-    ``progress(done, total)`` is called now and then with the starts done; return False to stop. A tqdm bar is moved.
-
-Returns
--------
-DesignCaseResult
-
-Raises
-------
-InvalidInput
-    On bad options, files or values.
-KeyboardInterrupt
-    On Ctrl-C; nothing is written.
-)");
+  bind_run(
+      module, "run_design", "Runs a case and the design study that it asks for in ``[design]``.", "DesignCaseResult",
+      [](const Case& study, const Progress& told) { return run_design(study, told); },
+      [](const Case& study, const DesignCaseResult& result) { return design_files(study, result); });
 }
 
 }  // namespace
@@ -151,45 +155,10 @@ Raises
 InvalidInput
     With path, line, key and rule, or the nearest known key.
 )");
-  module.def(
-      "run_case",
-      [](const py::object& study, const py::object& output, bool overwrite, const py::object& jobs,
-         const py::object& progress) {
-        return run_into(
-            case_of(study, jobs), output, overwrite, progress,
-            [](const Case& what, const Progress& told) { return run_case(what, told); },
-            [](const Case& what, const CaseResult& result) { return case_files(what, result); });
-      },
-      py::arg("case"), py::arg("output") = py::none(), py::kw_only(), py::arg("overwrite") = false,
-      py::arg("jobs") = py::none(), py::arg("progress") = py::none(),
-      R"(Runs a case: pulse, identification, simulation, heave and pitch, comparison.
-
-Parameters
-----------
-case : Case, str or os.PathLike
-    A case or the path of its file.
-output : str or os.PathLike, optional
-    Folder for the files that `crashsim run` writes, whole or not at all.
-overwrite : bool
-    Replace the folder when it holds nothing but what is written anew.
-jobs : int, optional
-    Threads; 0: all cores. The result does not depend on it.
-progress : callable or tqdm bar, optional
-    ``progress(done, total)`` is called now and then with the starts done; return False to stop. A tqdm bar is moved.
-
-Returns
--------
-CaseResult
-
-Raises
-------
-InvalidInput
-    On bad options, files or values, or when `output` is there already.
-SystemFailure
-    When it cannot be written.
-KeyboardInterrupt
-    On Ctrl-C; nothing is written.
-)");
+  bind_run(
+      module, "run_case", "Runs a case: pulse, identification, simulation, heave and pitch, comparison.", "CaseResult",
+      [](const Case& study, const Progress& told) { return run_case(study, told); },
+      [](const Case& study, const CaseResult& result) { return case_files(study, result); });
   module.def(
       "summarize", [](const Pulse& pulse) { return dict_of(summarize(pulse)); }, py::arg("result"));
   module.def(

@@ -32,16 +32,8 @@ std::vector<std::string> inputs_of(const Result&) {
   return {};
 }
 
-/// Binds `function(result, path, *, overwrite)`, which writes the text that `format(result, record)` makes of it.
-template <class Result, class Format>
-void bind_writer(py::module_& module, const char* function, const std::string& doc, Format format) {
-  module.def(
-      function,
-      [function, format](const Result& result, const py::object& path, bool overwrite) {
-        write_file_atomically(path_text(path), format(result, record_of(function, inputs_of(result))), overwrite);
-      },
-      py::arg("result"), py::arg("path"), py::kw_only(), py::arg("overwrite") = false,
-      (doc + R"(
+/// What every writer of a file takes and raises.
+constexpr const char* kFileDoc = R"(
 path : str or os.PathLike
     File to write, whole or not at all.
 overwrite : bool
@@ -53,8 +45,17 @@ InvalidInput
     When the file is there and `overwrite` is false.
 SystemFailure
     With path and reason when it cannot be written.
-)")
-          .c_str());
+)";
+
+/// Binds `function(result, path, *, overwrite)`, which writes the text that `format(result, record)` makes of it.
+template <class Result, class Format>
+void bind_writer(py::module_& module, const char* function, const std::string& doc, Format format) {
+  module.def(
+      function,
+      [function, format](const Result& result, const py::object& path, bool overwrite) {
+        write_file_atomically(path_text(path), format(result, record_of(function, inputs_of(result))), overwrite);
+      },
+      py::arg("result"), py::arg("path"), py::kw_only(), py::arg("overwrite") = false, (doc + kFileDoc).c_str());
 }
 
 std::string taking(const std::string& what, const std::string& type) {
@@ -130,25 +131,9 @@ void bind_response_writer(py::module_& module) {
                               overwrite);
       },
       py::arg("result"), py::arg("path"), py::arg("mass_kg") = kUnset, py::kw_only(), py::arg("overwrite") = false,
-      R"(Writes a simulation as ``response.csv``.
-
-Parameters
-----------
-result : CrushResponse
-path : str or os.PathLike
-    File to write, whole or not at all.
-mass_kg : float, optional
-    Test mass [kg].
-overwrite : bool
-    Replace a file that is there.
-
-Raises
-------
-InvalidInput
-    When the file is there and `overwrite` is false.
-SystemFailure
-    With path and reason when it cannot be written.
-)");
+      (taking("Writes a simulation as ``response.csv``.", "CrushResponse") +
+       "\nmass_kg : float, optional\n    Test mass [kg]." + kFileDoc)
+          .c_str());
 }
 
 void bind_iso_mme(py::module_& module) {

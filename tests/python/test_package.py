@@ -144,6 +144,19 @@ def test_progress_is_told_and_stops(pulse: crashsim.Pulse) -> None:
         crashsim.identify(pulse, starts=5000, progress=fail)
 
 
+def test_nothing_is_written_when_a_run_is_broken_off(tmp_path: Path) -> None:
+    def press(done: int, total: int) -> None:
+        raise KeyboardInterrupt
+
+    case = tmp_path / "case.toml"
+    text = (support.DATA / "fe-car/case.toml").read_text(encoding="utf-8").replace('"C56.csv"', f'"{C56}"')
+    case.write_text(re.sub(r"starts = \d+", "starts = 50000", text), encoding="utf-8")
+    assert "starts = 50000" in case.read_text(encoding="utf-8")
+    with pytest.raises(KeyboardInterrupt):
+        crashsim.run_case(case, tmp_path / "out", progress=press)
+    assert not (tmp_path / "out").exists()
+
+
 def test_a_bar_is_moved(pulse: crashsim.Pulse) -> None:
     class Bar:
         """The part of tqdm's interface that is used."""
