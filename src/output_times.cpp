@@ -10,6 +10,16 @@
 
 namespace crashsim {
 
+void check_output_times(const std::vector<double>& times_s, std::string_view what) {
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double t = times_s[i];
+    if (!std::isfinite(t) || (i > 0 ? t <= times_s[i - 1] : t < 0.0))
+      throw InvalidInput(fmt::format("{}[{}] = {} s: times must be finite and increase from 0", what, i, t));
+  }
+  if (!times_s.empty() && times_s.back() == 0.0)
+    throw InvalidInput(fmt::format("{}: the last time is the end of the run and must be > 0 s", what));
+}
+
 std::vector<double> output_times(double first_s, double end_s, double dt_s, std::string_view what) {
   constexpr double kMaxSamples = 1e8;
   constexpr double kSameMultiple = 1e-9;  // an end this near a multiple of dt is one

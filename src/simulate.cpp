@@ -8,15 +8,16 @@
 
 #include <crashsim/option_values.hpp>
 
+#include "crush_outcome.hpp"
+#include "output_times.hpp"
 #include "solver/crush_motion.hpp"
 #include "solver/cvode_crush.hpp"
+#include "solver/return_line.hpp"
 #include "solver/taylor.hpp"
 
 namespace crashsim {
 namespace {
 
-constexpr double kDefaultEnd = 0.2;       // longer than any frontal crash [s]
-constexpr double kLocalTolerance = 1e-3;  // CVODE's global error is 10-300 times its local tolerance here
 constexpr int kTaylorDegree = 12;
 constexpr std::size_t kMaxSamples = 100'000'000;
 
@@ -82,16 +83,9 @@ class Recorder {
 };
 
 double end_time(const SimulateOptions& options) {
-  for (std::size_t i = 0; i < options.times_s.size(); ++i) {
-    const double t = options.times_s[i];
-    if (!std::isfinite(t) || (i > 0 ? t <= options.times_s[i - 1] : t < 0.0))
-      throw InvalidInput(
-          fmt::format("SimulateOptions.times_s[{}] = {} s: times must be finite and increase from 0", i, t));
-  }
-  if (!options.times_s.empty() && options.times_s.back() == 0.0)
-    throw InvalidInput("SimulateOptions.times_s: the last time is the end of the run and must be > 0 s");
+  check_output_times(options.times_s, "SimulateOptions.times_s");
   if (!options.times_s.empty()) return options.times_s.back();
-  return std::isnan(options.end_time_s) ? kDefaultEnd : options.end_time_s;
+  return std::isnan(options.end_time_s) ? kDefaultEnd_s : options.end_time_s;
 }
 
 std::size_t sample_count(const SimulateOptions& options, double end_time_s) {
@@ -112,16 +106,48 @@ void reserve(CrushResponse& out, std::size_t samples) {
 
 MotionSummary run(const CrushProblem& problem, const SimulateOptions& options, double end_time_s, Recorder& recorder,
                   SolverStatistics& statistics) {
+  const MotionLimits limits{end_time_s, options.to_max_crush};
   if (options.integrator == Integrator::taylor) {
-    TaylorStepper stepper(options.rtol * kLocalTolerance, kTaylorDegree, true);
-    const MotionSummary summary = integrate_motion(problem, end_time_s, options.to_max_crush, stepper, recorder);
+    TaylorStepper stepper(options.rtol * kLocalPerGlobal, kTaylorDegree, true);
+    const MotionSummary summary = integrate_motion(problem, limits, stepper, recorder);
     statistics.force_evaluations = summary.steps * kTaylorDegree;
     return summary;
   }
-  CvodeStepper stepper(std::max(options.rtol * kLocalTolerance, 1e-14));
-  const MotionSummary summary = integrate_motion(problem, end_time_s, options.to_max_crush, stepper, recorder);
+  CvodeStepper stepper(std::max(options.rtol * kLocalPerGlobal, 1e-14));
+  const MotionSummary summary = integrate_motion(problem, limits, stepper, recorder);
   statistics.force_evaluations = stepper.rhs_evaluations();
   return summary;
+}
+
+/// Empty for a usable result.
+std::string why_not_usable(const MotionSummary& summary, const CrushProblem& problem, const CrushResponse& out) {
+  const double t = summary.end_time_s;
+  switch (out.outcome) {
+    case CrushOutcome::left_knot_range:
+      return fmt::format(
+          "at t = {:.6g} s the motion left the knots (x = {:.6g} m, v = {:.6g} m/s) and extrapolation is 'error': "
+          "extend the curves or choose extrapolation 'constant'",
+          t, out.displacement_m.back(), out.velocity_mps.back());
+    case CrushOutcome::unloading_too_soft:
+      return why_too_soft(problem, summary.max_crush_force_n, summary.max_crush_m);
+    case CrushOutcome::step_limit:
+      return fmt::format("{} steps reached only t = {:.6g} s: loosen rtol or check the model's ordinates",
+                         summary.steps, t);
+    case CrushOutcome::failed:
+      return fmt::format(
+          "the motion grows without bound after t = {:.6g} s (x = {:.6g} m, v = {:.6g} m/s): check the model's "
+          "ordinates and extrapolation",
+          t, out.displacement_m.back(), out.velocity_mps.back());
+    case CrushOutcome::no_max_crush:
+      return fmt::format(
+          "no maximum crush: v did not reach zero within 0..{:.6g} s (v = {:.6g} m/s at the end, from {:.6g} m/s): "
+          "simulate longer, or the structure is too weak",
+          t, out.velocity_mps.back(), problem.speed_mps);
+    case CrushOutcome::not_run:
+    case CrushOutcome::completed:
+      break;
+  }
+  return {};
 }
 
 void judge(const MotionSummary& summary, const CrushProblem& problem, CrushResponse& out) {
@@ -132,34 +158,8 @@ void judge(const MotionSummary& summary, const CrushProblem& problem, CrushRespo
   out.rebound_velocity_mps = summary.rebound_velocity_mps;
   out.statistics.steps = summary.steps;
   out.statistics.events = summary.events;
-  if (summary.end == MotionEnd::left_knot_range) {
-    out.outcome = CrushOutcome::left_knot_range;
-    out.message = fmt::format(
-        "at t = {:.6g} s the motion left the knots (x = {:.6g} m, v = {:.6g} m/s) and extrapolation is 'error': extend "
-        "the curves or choose extrapolation 'constant'",
-        summary.end_time_s, out.displacement_m.back(), out.velocity_mps.back());
-  } else if (summary.end == MotionEnd::unloading_too_soft) {
-    out.outcome = CrushOutcome::unloading_too_soft;
-    out.message = why_too_soft(problem, summary.max_crush_force_n, summary.max_crush_m);
-  } else if (summary.end == MotionEnd::step_limit) {
-    out.outcome = CrushOutcome::step_limit;
-    out.message = fmt::format("{} steps reached only t = {:.6g} s: loosen rtol or check the model's ordinates",
-                              summary.steps, summary.end_time_s);
-  } else if (summary.end == MotionEnd::diverged) {
-    out.outcome = CrushOutcome::failed;
-    out.message = fmt::format(
-        "the motion grows without bound after t = {:.6g} s (x = {:.6g} m, v = {:.6g} m/s): check the model's ordinates "
-        "and extrapolation",
-        summary.end_time_s, out.displacement_m.back(), out.velocity_mps.back());
-  } else if (std::isnan(summary.t_m_s)) {
-    out.outcome = CrushOutcome::no_max_crush;
-    out.message = fmt::format(
-        "no maximum crush: v did not reach zero within 0..{:.6g} s (v = {:.6g} m/s at the end, from {:.6g} m/s): "
-        "simulate longer, or the structure is too weak",
-        summary.end_time_s, out.velocity_mps.back(), problem.speed_mps);
-  } else {
-    out.outcome = CrushOutcome::completed;
-  }
+  out.outcome = outcome_of(summary);
+  out.message = why_not_usable(summary, problem, out);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <crashsim/coupled_columns.hpp>
 #include <crashsim/units.hpp>
 
+#include "event_metrics.hpp"
 #include "json.hpp"
 
 namespace crashsim {
@@ -74,16 +75,7 @@ Metrics metrics_of(const CrushResponse& response, double mass_kg) {
   if (!has_ended) return out;
   if (response.time_s.size() >= kFewestSamples)
     out = metrics({response.time_s, response.accel_mps2, response.velocity_mps, response.displacement_m}, mass_kg);
-  const double speed = response.impact_speed_mps;
-  out.t_m_s = response.t_m_s;
-  out.mean_decel_g = speed / response.t_m_s / kStandardGravity;
-  out.energy_j = response.usable() ? 0.5 * mass_kg * speed * speed : kUnset;
-  out.max_crush_m = response.max_crush_m;
-  out.centroid_s = response.max_crush_m / speed;
-  if (std::isnan(response.separation_s)) return out;
-  out.static_crush_m = response.static_crush_m;
-  out.rebound_velocity_mps = response.rebound_velocity_mps;
-  out.restitution = std::fabs(response.rebound_velocity_mps) / speed;  // of 0: not -0
+  take_events(response, mass_kg, response.impact_speed_mps, out);
   return out;
 }
 

@@ -39,6 +39,7 @@
 #include <crashsim/signal.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>
+#include <crashsim/simulate_many.hpp>
 #include <crashsim/simulate_pitch.hpp>
 #include <crashsim/solver_statistics.hpp>
 #include <crashsim/summary.hpp>

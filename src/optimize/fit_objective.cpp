@@ -222,7 +222,7 @@ double FitObjective::evaluate(std::span<const double> parameters, double smoothi
     const double weight = target.factor / static_cast<double>(targets_.size());
     LossVisitor visitor(problem, target, static_cast<int>(spring_count_), {loss_, smoothing, !gradient.empty()}, weight,
                         gradient, sensitivity_x_, sensitivity_v_);
-    const MotionSummary summary = integrate_motion(problem, target.time_s.back(), false, stepper, visitor);
+    const MotionSummary summary = integrate_motion(problem, {target.time_s.back(), false}, stepper, visitor);
     if (summary.end != MotionEnd::end_time) return std::numeric_limits<double>::infinity();
     total += weight * visitor.sum();
   }
@@ -274,7 +274,7 @@ Eigen::MatrixXd FitObjective::jacobian(std::span<const double> parameters) {
     const CrushProblem problem{force_, target.mass_kg, target.impact_speed_mps, {}};
     JacobianVisitor visitor(problem, target, static_cast<int>(spring_count_), jacobian.middleRows(first, count),
                             sensitivity_x_, sensitivity_v_);
-    integrate_motion(problem, target.time_s.back(), false, stepper, visitor);
+    integrate_motion(problem, {target.time_s.back(), false}, stepper, visitor);
     jacobian.middleRows(first, count) *= std::sqrt(target.factor);
     first += count;
   }

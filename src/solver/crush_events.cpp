@@ -6,7 +6,6 @@ namespace crashsim {
 namespace {
 
 constexpr double kForceRounding = 1e-13;  // relative to the terms the force is the sum of
-constexpr double kStateRounding = 1e-13;  // of v relative to the impact speed, of x to its way in a crash
 
 double magnitude(const Quadratic& c, double s) {
   return std::fabs(c[0]) + std::fabs(s) * (std::fabs(c[1]) + std::fabs(s * c[2]));
@@ -45,8 +44,11 @@ SignChange sign_change(const RegionForce& force, const StepPolynomial& step, dou
   const double sign = first > 0.0 ? 1.0 : -1.0;
   double end = step.to;
   if (sign * at(end) >= 0.0) {
-    // An excursion inside the step shows as a minimum of the signed force.
-    if (!(sign * slope(start) < 0.0 && sign * slope(end) > 0.0)) return {step.to, sign < 0.0};
+    // An excursion inside the step shows as a minimum of the signed force, which the tangents at the ends bound.
+    const double fall = sign * slope(start), rise = sign * slope(end);
+    if (!(fall < 0.0 && rise > 0.0)) return {step.to, sign < 0.0};
+    if (sign * first + fall * (end - start) > 0.0 || sign * at(end) - rise * (end - start) > 0.0)
+      return {step.to, sign < 0.0};
     double low = start, high = end;
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
@@ -102,7 +104,7 @@ Region initial_region(const CrushProblem& problem) {
 Event first_event(const CrushProblem& problem, const Region& region, const StepPolynomial& step) {
   Event event{EventKind::none, step.to, 0, 0.0};
   if (region.separated) return event;
-  const double margin = kStateRounding * problem.speed_mps;
+  const double margin = state_rounding(problem.speed_mps);
   const bool bilateral = problem.unloading.bilateral;
   if (region.unloading && bilateral) return event;  // one line to the end
   const SignChange change = sign_change(region_force(problem, region), step, margin);
@@ -126,7 +128,7 @@ Region next_region(const CrushProblem& problem, const Region& region, const Even
   }
   if (event.kind == EventKind::separation) next.separated = true;
   if (problem.unloading.bilateral || next.separated) return next;
-  const double force = contact_force(region_force(problem, next), x, v, kStateRounding * problem.speed_mps);
+  const double force = contact_force(region_force(problem, next), x, v, state_rounding(problem.speed_mps));
   next.separated = next.unloading ? force <= 0.0 : force < 0.0;
   return next;
 }

@@ -16,6 +16,9 @@ struct CrushProblem {
   Unloading unloading;
 };
 
+/// What rounding makes of v; of x it is kCrashTime times as much.
+inline double state_rounding(double speed_mps) { return 1e-13 * speed_mps; }
+
 /// Segments the motion is in. Inside one region the force is one polynomial of x and v.
 struct Region {
   int spring = 0, damper = 0;

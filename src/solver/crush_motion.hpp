@@ -3,7 +3,6 @@
 /// only in how they make a step.
 
 #include "solver/crush_events.hpp"
-#include "solver/return_line.hpp"
 
 namespace crashsim {
 
@@ -18,79 +17,66 @@ struct MotionSummary {
   long steps = 0, events = 0;
 };
 
+/// Error allowed of a step, of what is asked of the result: the errors of a motion's steps add up, and CVODE's global
+/// error is 10-300 times its local one here.
+inline constexpr double kLocalPerGlobal = 1e-3;
+
 inline constexpr long kStepLimit = 100'000;  // a crash takes some tens to some thousands
 
-/// Integrates to `end_time_s`, or to maximum crush when `to_max_crush`.
+/// How long to go.
+struct MotionLimits {
+  double end_time_s;
+  bool to_max_crush;  ///< End at maximum crush, if that is earlier.
+};
+
+/// Where a motion is between two steps.
+struct MotionState {
+  Region region;
+  double t = 0.0, x = 0.0, v = 0.0;
+  MotionSummary summary;
+  bool ended = false;
+};
+
+/// State at impact.
+MotionState start_motion(const CrushProblem& problem);
+
+/// Takes the motion to the end of a step at time `t` and state (x, v): over its event, or on when there is none. What
+/// ends the motion is in the summary.
+void end_step(const CrushProblem& problem, const MotionLimits& limits, const Event& event, double t, double x, double v,
+              MotionState& state);
+
+/// An event before any of its step: there is no piece to look at.
+inline bool is_at_once(const Event& event, const StepPolynomial& step) {
+  return event.kind != EventKind::none && event.tau <= step.from;
+}
+
+/// Integrates to the limits.
 /// Stepper: `restart(problem, region, t, x, v, dissipated)`, `const StepPolynomial& advance(end_time)`.
 /// Visitor: `on_piece(region, step, tau_end)` for every smooth piece, `on_event(before, after, x, v)` between pieces.
 template <class Stepper, class Visitor>
-MotionSummary integrate_motion(const CrushProblem& problem, double end_time_s, bool to_max_crush, Stepper& stepper,
+MotionSummary integrate_motion(const CrushProblem& problem, const MotionLimits& limits, Stepper& stepper,
                                Visitor& visitor) {
-  MotionSummary summary;
-  Region region = initial_region(problem);
-  const auto left_knots = [&] {
-    return problem.force.spring.forbidden(region.spring) || problem.force.damper.forbidden(region.damper);
-  };
-  if (left_knots()) {
-    summary.end = MotionEnd::left_knot_range;
-    return summary;
-  }
-  stepper.restart(problem, region, 0.0, 0.0, problem.speed_mps, 0.0);
-  while (summary.steps < kStepLimit) {
-    const StepPolynomial& step = stepper.advance(end_time_s);
-    ++summary.steps;
+  MotionState state = start_motion(problem);
+  if (!state.ended) stepper.restart(problem, state.region, 0.0, 0.0, problem.speed_mps, 0.0);
+  while (!state.ended) {
+    const StepPolynomial& step = stepper.advance(limits.end_time_s);
     if (!std::isfinite(step.v[static_cast<std::size_t>(step.degree)])) {  // what overflows does so here first
-      summary.end = MotionEnd::diverged;
-      return summary;
+      state.summary.end = MotionEnd::diverged;
+      break;
     }
-    const Event event = first_event(problem, region, step);
-    const bool at_once = event.kind != EventKind::none && event.tau <= step.from;  // no piece of this region at all
-    if (!at_once) visitor.on_piece(region, step, event.tau);
-    const double t = step.base + event.tau;
-    summary.end_time_s = t;
-    if (event.kind == EventKind::none) {
-      if (t >= end_time_s) return summary;
-      continue;
-    }
-    ++summary.events;
-    // A knot that was reached is reached exactly, so that no rounding can cross it twice.
-    const double x = event.kind == EventKind::spring_knot ? event.level : step.x_at(event.tau);
-    const double v = event.kind == EventKind::damper_knot ? event.level : step.v_at(event.tau);
-    const Region before = region;
-    region = next_region(problem, before, event, x, v);
-    visitor.on_event(before, region, x, v);
-    if (is_max_crush(event) && std::isnan(summary.t_m_s)) {
-      summary.t_m_s = t;
-      summary.max_crush_m = x;
-      summary.max_crush_force_n = value(region_force(problem, before).spring, x);
-      if (to_max_crush) {
-        summary.end = MotionEnd::max_crush;
-        return summary;
-      }
-      if (region.unloading && returns_too_much(problem, region, x)) {
-        summary.end = MotionEnd::unloading_too_soft;
-        return summary;
-      }
-    }
-    if (region.separated) {
-      summary.separation_s = t;
-      if (!std::isnan(summary.t_m_s)) {
-        summary.static_crush_m = x;
-        summary.rebound_velocity_mps = v;
-      }
-    }
-    if (left_knots()) {
-      summary.end = MotionEnd::left_knot_range;
-      return summary;
-    }
-    if (t >= end_time_s) return summary;
+    const Event event = first_event(problem, state.region, step);
+    if (!is_at_once(event, step)) visitor.on_piece(state.region, step, event.tau);
+    const Region before = state.region;
+    end_step(problem, limits, event, step.base + event.tau, step.x_at(event.tau), step.v_at(event.tau), state);
+    if (event.kind == EventKind::none) continue;
+    visitor.on_event(before, state.region, state.x, state.v);
+    if (state.ended) break;
     double dissipated = step.dissipated_at(event.tau);
-    if (region.unloading != before.unloading || region.separated)
-      dissipated += stored_energy(problem, before, x) - stored_energy(problem, region, x);
-    stepper.restart(problem, region, t, x, v, dissipated);
+    if (state.region.unloading != before.unloading || state.region.separated)
+      dissipated += stored_energy(problem, before, state.x) - stored_energy(problem, state.region, state.x);
+    stepper.restart(problem, state.region, state.t, state.x, state.v, dissipated);
   }
-  summary.end = MotionEnd::step_limit;
-  return summary;
+  return state.summary;
 }
 
 }  // namespace crashsim

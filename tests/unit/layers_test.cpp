@@ -67,6 +67,7 @@ const std::map<std::string, Layer> kLayers = {
 
     {"forcing", simulation},
     {"output_times", simulation},
+    {"crush_outcome", simulation},
     {"pitch_input", simulation},
     {"coupled_columns", simulation},
     {"coupled_model", simulation},
@@ -81,6 +82,8 @@ const std::map<std::string, Layer> kLayers = {
     {"dtw", judgement},
     {"load_cell_wall", judgement},
     {"metrics", judgement},
+    {"event_metrics", judgement},
+    {"simulate_many", judgement},
     {"olc", judgement},
     {"rating", judgement},
     {"severity", judgement},
