@@ -1,6 +1,7 @@
 #include <crashsim/simulate.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,8 +19,13 @@
 namespace crashsim {
 namespace {
 
-constexpr int kTaylorDegree = 12;
 constexpr std::size_t kMaxSamples = 100'000'000;
+
+/// The arrays beside the times.
+std::array<std::vector<double>*, 6> columns_of(CrushResponse& out) {
+  return {&out.accel_mps2,     &out.velocity_mps,   &out.displacement_m,
+          &out.spring_force_n, &out.damper_force_n, &out.energy_residual_j};
+}
 
 /// Samples the pieces of a motion at its output times.
 class Recorder {
@@ -31,7 +37,9 @@ class Recorder {
 
   void on_piece(const Region& region, const StepPolynomial& step, double tau_end) {
     const double t_end = step.base + tau_end;
-    for (double t = next_time(); t <= t_end; t = next_time()) record(region, step, std::min(t - step.base, tau_end), t);
+    const std::size_t first = out_.time_s.size();
+    for (double t = next_time(); t <= t_end; t = next_time()) out_.time_s.push_back(t);
+    record(region, step, tau_end, first);
     last_ = step;
     last_region_ = region;
     last_tau_ = tau_end;
@@ -44,8 +52,10 @@ class Recorder {
     const double t = last_.base + last_tau_;
     const double least_gap = 1e-9 * options_.dt_s;
     const bool on_grid = options_.times_s.empty();
-    if (out_.time_s.empty() || (on_grid && t - out_.time_s.back() > least_gap))
-      record(last_region_, last_, last_tau_, t);
+    if (out_.time_s.empty() || (on_grid && t - out_.time_s.back() > least_gap)) {
+      out_.time_s.push_back(t);
+      record(last_region_, last_, last_tau_, out_.time_s.size() - 1);
+    }
     const double v = last_.v_at(last_tau_);
     out_.kinetic_energy_j = 0.5 * problem_.mass_kg * v * v;
     out_.dissipated_energy_j = last_.dissipated_at(last_tau_);
@@ -59,19 +69,26 @@ class Recorder {
     return i < options_.times_s.size() ? options_.times_s[i] : std::numeric_limits<double>::infinity();
   }
 
-  void record(const Region& region, const StepPolynomial& step, double tau, double t) {
+  /// Fills the samples from `first` on, which lie in the step up to `tau_end`.
+  void record(const Region& region, const StepPolynomial& step, double tau_end, std::size_t first) {
+    const std::size_t count = out_.time_s.size();
+    if (first == count) return;
+    for (std::vector<double>* column : columns_of(out_)) column->resize(count);
     const RegionForce force = region_force(problem_, region);
-    const double x = step.x_at(tau), v = step.v_at(tau);
-    const double spring = value(force.spring, x), damper = value(force.damper, v);
-    const double absorbed = stored_energy(problem_, region, x) + step.dissipated_at(tau);
-    const double half_mass = 0.5 * problem_.mass_kg;
-    out_.time_s.push_back(t);
-    out_.displacement_m.push_back(x);
-    out_.velocity_mps.push_back(v);
-    out_.accel_mps2.push_back(-(spring + damper) / problem_.mass_kg);
-    out_.spring_force_n.push_back(spring);
-    out_.damper_force_n.push_back(damper);
-    out_.energy_residual_j.push_back(half_mass * (v * v - problem_.speed_mps * problem_.speed_mps) + absorbed);
+    const std::array<double, 4> energy = stored_energy_polynomial(problem_, region, step.x_at(tau_end));
+    const double half_mass = 0.5 * problem_.mass_kg, speed = problem_.speed_mps;
+    for (std::size_t i = first; i < count; ++i) {
+      const double tau = std::min(out_.time_s[i] - step.base, tau_end);
+      const double x = step.x_at(tau), v = step.v_at(tau);
+      const double spring = value(force.spring, x), damper = value(force.damper, v);
+      const double absorbed = energy[0] + x * (energy[1] + x * (energy[2] + x * energy[3])) + step.dissipated_at(tau);
+      out_.displacement_m[i] = x;
+      out_.velocity_mps[i] = v;
+      out_.accel_mps2[i] = -(spring + damper) / problem_.mass_kg;
+      out_.spring_force_n[i] = spring;
+      out_.damper_force_n[i] = damper;
+      out_.energy_residual_j[i] = half_mass * (v * v - speed * speed) + absorbed;
+    }
   }
 
   const CrushProblem& problem_;
@@ -99,16 +116,15 @@ std::size_t sample_count(const SimulateOptions& options, double end_time_s) {
 }
 
 void reserve(CrushResponse& out, std::size_t samples) {
-  for (auto* column : {&out.time_s, &out.accel_mps2, &out.velocity_mps, &out.displacement_m, &out.spring_force_n,
-                       &out.damper_force_n, &out.energy_residual_j})
-    column->reserve(samples);
+  out.time_s.reserve(samples);
+  for (std::vector<double>* column : columns_of(out)) column->reserve(samples);
 }
 
 MotionSummary run(const CrushProblem& problem, const SimulateOptions& options, double end_time_s, Recorder& recorder,
                   SolverStatistics& statistics) {
   const MotionLimits limits{end_time_s, options.to_max_crush};
   if (options.integrator == Integrator::taylor) {
-    TaylorStepper stepper(options.rtol * kLocalPerGlobal, kTaylorDegree, true);
+    TaylorStepper stepper(options.rtol * kLocalPerGlobal, true);
     const MotionSummary summary = integrate_motion(problem, limits, stepper, recorder);
     statistics.force_evaluations = summary.steps * kTaylorDegree;
     return summary;

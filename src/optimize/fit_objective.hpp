@@ -1,11 +1,13 @@
 #pragma once
 /// E of eq. (4) and its exact gradient, by the Taylor kernel.
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "optimize/fit_kernel.hpp"
 #include "optimize/fit_target.hpp"
 #include "solver/crush_force.hpp"
 
@@ -38,6 +40,11 @@ class FitObjective {
   /// @param smoothing rounding of the corner of |u|, relative to each channel's largest u; 0 for the true loss.
   double evaluate(std::span<const double> parameters, double smoothing, std::span<double> gradient);
 
+  /// E with its gradient, and the Hessian that Gauss and Newton make of the residuals, each weighted as its loss says
+  /// at its size. `hessian` is square, of size(). Infinite when a simulation fails.
+  double normal_equations(std::span<const double> parameters, double smoothing, std::span<double> gradient,
+                          Eigen::MatrixXd& hessian);
+
   /// Derivatives of the scaled residuals (acceleration, velocity, displacement of each sample in turn) by the
   /// parameters; rows are weighted as in E with the squared loss.
   Eigen::MatrixXd jacobian(std::span<const double> parameters);
@@ -48,16 +55,34 @@ class FitObjective {
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
+  template <class OnSamples>
+  class Walk;
+  struct PaddedSamples {
+    std::vector<double> time, accel, velocity, displacement;
+    std::size_t count;
+  };
+
   void set(std::span<const double> parameters);
+  /// Simulates the test of a target; false when that fails.
+  template <class OnSamples>
+  bool walk(std::size_t index, bool with_sensitivities, const OnSamples& on_samples);
+  /// Adds to `gradient` what a linear functional of the piece, known on the columns, says of every parameter.
+  void add_gradient(const Columns& columns, double weight, std::span<double> gradient) const;
+  void add_hessian(const PieceLoss& loss, double weight, Eigen::MatrixXd& hessian) const;
+  void columns_at_sample(double tau, Columns& accel, Columns& velocity, Columns& displacement) const;
   [[nodiscard]] double roughness(std::span<const double> parameters, std::span<double> gradient) const;
 
   std::span<const FitTarget> targets_;
+  std::vector<PaddedSamples> samples_;
   Loss loss_;
   double smooth_;
   std::size_t spring_count_, size_;
   CrushForce force_;
   ForceScale scale_;
-  std::vector<double> sensitivity_x_, sensitivity_v_;
+  std::vector<double> by_x_, by_v_;  ///< Sensitivities of x and v to every parameter at the start of the piece.
+  FitPiece piece_;
+  SensitivitySeries series_;
+  std::array<int, kColumns - kHomogeneous> acting_{};  ///< Parameters of the acting columns, -1: none.
 };
 
 }  // namespace crashsim

@@ -78,13 +78,14 @@ StartPlan plan_of_starts(std::vector<SoughtRange> ranges, ErrorOfValues error, s
           index == 0 ? ranges[i].place_of(ranges[i].first) : uniform_random(seed, static_cast<std::uint64_t>(index), i);
     return point;
   };
-  plan.make_function = [ranges = std::move(ranges), error = std::move(error)]() -> SmoothedFunction {
-    return [ranges, error](std::span<const double> point, double smoothing, std::span<double> gradient) {
-      const std::vector<double> values = values_at(ranges, point);
-      const double e = error(values, smoothing, gradient);
-      for (std::size_t i = 0; i < values.size(); ++i) gradient[i] *= ranges[i].slope_at(values[i]);
-      return e;
-    };
+  plan.make_functions = [ranges = std::move(ranges), error = std::move(error)]() -> StartFunctions {
+    return {[ranges, error](std::span<const double> point, double smoothing, std::span<double> gradient) {
+              const std::vector<double> values = values_at(ranges, point);
+              const double e = error(values, smoothing, gradient);
+              for (std::size_t i = 0; i < values.size(); ++i) gradient[i] *= ranges[i].slope_at(values[i]);
+              return e;
+            },
+            {}};
   };
   return plan;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 
 #include <crashsim/identify.hpp>
 
@@ -19,13 +20,23 @@ namespace crashsim {
 using SmoothedFunction =
     std::function<double(std::span<const double> point, double smoothing, std::span<double> gradient)>;
 
+/// The same with Gauss-Newton's Hessian, by the point.
+using SmoothedNormalEquations = std::function<double(std::span<const double> point, double smoothing,
+                                                     std::span<double> gradient, Eigen::MatrixXd& hessian)>;
+
+/// What a thread evaluates; the normal equations may be missing.
+struct StartFunctions {
+  SmoothedFunction value;
+  SmoothedNormalEquations normal_equations;
+};
+
 /// Everything the starts depend on.
 struct StartPlan {
   int starts = 1;
   int jobs = 0;
   Loss loss = Loss::l1;
   Algorithm algorithm = Algorithm::lbfgs;
-  std::function<SmoothedFunction()> make_function;              ///< Called once on each thread.
+  std::function<StartFunctions()> make_functions;               ///< Called once on each thread.
   std::function<std::vector<double>(int index)> initial_point;  ///< In the unit box; depends on the index only.
 };
 

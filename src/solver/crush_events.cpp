@@ -79,11 +79,7 @@ void cross_bounds(const ForceAxis& axis, int segment, const Coefficients& c, dou
   if (start <= 0.0)
     tau = step.from;
   else if (side * (end - level) < 0.0)
-    tau = bracketed_root(
-        [&](double s) {
-          return ValueAndDerivative{horner(c, step.degree, s) - level, horner_derivative(c, step.degree, s)};
-        },
-        step.from, event.tau);
+    tau = level_crossing(c, step.degree, level, step.from, event.tau);
   event = {kind, tau, below ? -1 : +1, level};
 }
 
@@ -131,6 +127,13 @@ Region next_region(const CrushProblem& problem, const Region& region, const Even
   const double force = contact_force(region_force(problem, next), x, v, state_rounding(problem.speed_mps));
   next.separated = next.unloading ? force <= 0.0 : force < 0.0;
   return next;
+}
+
+std::array<double, 4> stored_energy_polynomial(const CrushProblem& problem, const Region& region, double x) {
+  const Quadratic force = region_force(problem, region).spring;
+  std::array<double, 4> energy = {0.0, force[0], force[1] / 2.0, force[2] / 3.0};
+  energy[0] = stored_energy(problem, region, x) - x * (energy[1] + x * (energy[2] + x * energy[3]));
+  return energy;
 }
 
 double stored_energy(const CrushProblem& problem, const Region& region, double x) {

@@ -61,4 +61,7 @@ Region next_region(const CrushProblem& problem, const Region& region, const Even
 /// Energy that the structure can give back from crush x.
 double stored_energy(const CrushProblem& problem, const Region& region, double x);
 
+/// The same inside one region as a polynomial of x; `x` is where it is told from.
+std::array<double, 4> stored_energy_polynomial(const CrushProblem& problem, const Region& region, double x);
+
 }  // namespace crashsim

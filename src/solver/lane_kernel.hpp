@@ -50,20 +50,11 @@ struct LaneSamples {
   double *accel, *velocity, *displacement;
 };
 
-enum class InstructionSet { baseline, avx2, avx512 };
-
 struct LaneKernel {
   void (*advance)(LaneBlock& block);
   void (*sample)(const LaneBlock& block, std::size_t lane, const LaneSamples& samples);
 };
 
 extern const LaneKernel kLaneKernelBaseline, kLaneKernelAvx2, kLaneKernelAvx512;
-
-/// Whether this processor has it.
-bool is_available(InstructionSet set);
-/// The widest available.
-InstructionSet widest_instruction_set();
-/// @param set an available one.
-const LaneKernel& lane_kernel(InstructionSet set);
 
 }  // namespace crashsim

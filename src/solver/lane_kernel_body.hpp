@@ -1,36 +1,16 @@
 #pragma once
-/// The kernel, for the files that compile it for one instruction set each. These include nothing that defines an inline
-/// function: the linker might take its copy, made for instructions that the processor does not have, for all.
+/// The kernel, for the files that compile it for one instruction set each; see instruction_set.hpp.
 
 #include "solver/lane_kernel.hpp"
-
-#define CRASHSIM_INLINE [[gnu::always_inline]] inline
+#include "vector_types.hpp"
 
 namespace crashsim {
 namespace {
-
-/// W doubles, and as many integers of their size; comparisons give -1 where true.
-template <std::size_t W>
-struct Vectors {
-  using Doubles [[gnu::vector_size(8 * W)]] = double;
-  using Integers [[gnu::vector_size(8 * W)]] = std::int64_t;
-};
 
 constexpr double kLengthPerSpeed = 0.05;  // of the rounding of x to that of v [s]
 constexpr double kClearForce = 1e-11;  // of the terms the force is the sum of: a smaller one is left to first_event()
 constexpr int kMostIterations = 12;
 constexpr double kSettled = 1e-9;  // of the step: Newton's method doubles the digits, so that this move was its last
-
-template <class T>
-CRASHSIM_INLINE T load(const LaneNumbers& numbers, std::size_t first) {
-  T out;
-  __builtin_memcpy(&out, numbers + first, sizeof(T));
-  return out;
-}
-template <class T>
-CRASHSIM_INLINE void store(const T& value, LaneNumbers& numbers, std::size_t first) {
-  __builtin_memcpy(numbers + first, &value, sizeof(T));
-}
 
 /// A step of W lanes: the force, and the series of the motion.
 template <std::size_t W>
@@ -92,8 +72,7 @@ CRASHSIM_INLINE D step_length(const S& step, const D& tolerance, const D& remain
   constexpr double kLeast = 1e-200;
   D inverse_log2 = D{} - 900.0;
   for (int k = kLaneDegree - 1; k <= kLaneDegree; ++k) {
-    D size = step.v[k] < 0.0 ? -step.v[k] : step.v[k];
-    size = size / tolerance;
+    D size = size_of(step.v[k]) / tolerance;
     size = size > kLeast ? size : D{} + kLeast;
     const D log = rough_log2<S>(size) * (1.0 / static_cast<double>(k));
     inverse_log2 = log > inverse_log2 ? log : inverse_log2;
@@ -110,13 +89,6 @@ CRASHSIM_INLINE D polynomial(const D* c, const D& tau) {
   return value;
 }
 
-template <class I>
-CRASHSIM_INLINE bool any_of(const I& mask) {
-  std::int64_t any = 0;
-  for (std::size_t l = 0; l < sizeof(I) / sizeof(any); ++l) any |= mask[l];
-  return any != 0;
-}
-
 /// dv/dt, its rate of change, and whether it is too near zero to trust its sign.
 template <class S, class D = typename S::D>
 struct Pull {
@@ -125,7 +97,6 @@ struct Pull {
 };
 template <class S, class D = typename S::D>
 CRASHSIM_INLINE Pull<S> pull_at(const S& step, const D& x, const D& v, const D& margin) {
-  const auto size_of = [](const D& number) { return number < 0.0 ? -number : number; };
   const D accel = (step.constant + x * (step.x1 + x * step.x2)) + v * (step.v1 + v * step.v2);
   const D by_x = step.x1 + 2.0 * x * step.x2, by_v = step.v1 + 2.0 * v * step.v2;
   const D terms = size_of(step.constant) + size_of(x) * (size_of(step.x1) + size_of(x * step.x2)) +
@@ -216,9 +187,9 @@ CRASHSIM_INLINE I crosses(const Exit<S>& exit, const D& start, const D& end, I& 
 template <class S, class D = typename S::D, class I = typename S::I>
 CRASHSIM_INLINE void leave_segments(const S& step, const LaneBlock& block, std::size_t first, D& x, D& v, D& tau,
                                     I& end, I& unclear) {
-  const D margin = load<D>(block.margin, first), x_margin = margin * kLengthPerSpeed;
-  const D x_low = load<D>(block.x_low, first), x_high = load<D>(block.x_high, first);
-  const Exit<S> by_v = exit_of<S>(v, load<D>(block.v_low, first), load<D>(block.v_high, first), margin, margin,
+  const D margin = load<D>(block.margin + first), x_margin = margin * kLengthPerSpeed;
+  const D x_low = load<D>(block.x_low + first), x_high = load<D>(block.x_high + first);
+  const Exit<S> by_v = exit_of<S>(v, load<D>(block.v_low + first), load<D>(block.v_high + first), margin, margin,
                                   LaneEnd::damper_below, LaneEnd::damper_above);
   Exit<S> by_x = exit_of<S>(x, x_low, x_high, x_margin, x_margin, LaneEnd::spring_below, LaneEnd::spring_above);
   if (!any_of(by_v.leaves | by_x.leaves)) return;
@@ -260,30 +231,30 @@ CRASHSIM_INLINE void advance_lanes(LaneBlock& block, std::size_t first) {
   using D = typename S::D;
   using I = typename S::I;
   S step;
-  step.constant = load<D>(block.force.constant, first);
-  step.x1 = load<D>(block.force.x1, first);
-  step.x2 = load<D>(block.force.x2, first);
-  step.v1 = load<D>(block.force.v1, first);
-  step.v2 = load<D>(block.force.v2, first);
-  step.x[0] = load<D>(block.x_from, first);
-  step.v[0] = load<D>(block.v_from, first);
+  step.constant = load<D>(block.force.constant + first);
+  step.x1 = load<D>(block.force.x1 + first);
+  step.x2 = load<D>(block.force.x2 + first);
+  step.v1 = load<D>(block.force.v1 + first);
+  step.v2 = load<D>(block.force.v2 + first);
+  step.x[0] = load<D>(block.x_from + first);
+  step.v[0] = load<D>(block.v_from + first);
   set_series(step);
-  const D length = step_length(step, load<D>(block.tolerance, first), load<D>(block.remaining, first));
-  const D margin = load<D>(block.margin, first);
+  const D length = step_length(step, load<D>(block.tolerance + first), load<D>(block.remaining + first));
+  const D margin = load<D>(block.margin + first);
   D x = polynomial(step.x, length), v = polynomial(step.v, length), tau = length;
   I unclear = may_turn<S>(pull_at(step, step.x[0], step.v[0], margin), pull_at(step, x, v, margin), length,
-                          load<D>(block.bilateral, first));
+                          load<D>(block.bilateral + first));
   I end = I{};
   leave_segments(step, block, first, x, v, tau, end, unclear);
   end = unclear ? I{} + static_cast<std::int64_t>(LaneEnd::unclear) : end;
   for (int n = 0; n <= kLaneDegree; ++n) {
-    store(step.x[n], block.x[n], first);
-    store(step.v[n], block.v[n], first);
+    store(step.x[n], block.x[n] + first);
+    store(step.v[n], block.v[n] + first);
   }
-  store(length, block.length, first);
-  store(tau, block.tau, first);
-  store(x, block.x_to, first);
-  store(v, block.v_to, first);
+  store(length, block.length + first);
+  store(tau, block.tau + first);
+  store(x, block.x_to + first);
+  store(v, block.v_to + first);
   __builtin_memcpy(block.end + first, &end, sizeof(I));
 }
 

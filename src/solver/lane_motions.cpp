@@ -9,7 +9,7 @@ LaneMotions::LaneMotions(std::span<const double> times_s, double tolerance, Inst
     : times_(times_s.begin(), times_s.end()),
       samples_(times_s.size()),
       tolerance_(tolerance),
-      kernel_(lane_kernel(set)) {
+      kernel_(KernelChoice<LaneKernel>{kLaneKernelBaseline, kLaneKernelAvx2, kLaneKernelAvx512}(set)) {
   times_.resize(samples_ + kMotions, times_s.back());
   const double spacing =
       (times_s.back() - times_s.front()) / static_cast<double>(std::max<std::size_t>(samples_, 2) - 1);

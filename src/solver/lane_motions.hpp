@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "instruction_set.hpp"
 #include "solver/crush_motion.hpp"
 #include "solver/lane_kernel.hpp"
 
@@ -67,7 +68,7 @@ class LaneMotions {
   std::size_t samples_;
   double spacing_s_ = kUnset;  ///< Of uniform times.
   double tolerance_;
-  LaneKernel kernel_;
+  const LaneKernel& kernel_;
   LaneBlock block_;
   std::array<Lane, kMotions> lanes_;
   std::size_t next_model_ = 0;

@@ -57,4 +57,30 @@ struct ValueAndDerivative {
   double value, derivative;
 };
 
+/// Where in [low, high] a polynomial reaches `level`, which it crosses once there. Newton's method from the parabola
+/// through both ends that has the slope of the first, with bisection where it would leave the bracket.
+inline double level_crossing(const Coefficients& c, int degree, double level, double low, double high) {
+  const double start = horner(c, degree, low) - level, end = horner(c, degree, high) - level;
+  const double width = high - low, settled = 1e-9 * width;  // the move after this one is below rounding
+  const double slope = horner_derivative(c, degree, low) * width, bend = end - start - slope;
+  const double chord = start / (start - end);
+  const double bent = chord - (start + chord * (slope + chord * bend)) / (slope + 2.0 * bend * chord);
+  double t = low + width * (bent > 0.0 && bent < 1.0 ? bent : chord);
+  for (int i = 0; i < 100; ++i) {
+    double value = c[static_cast<std::size_t>(degree)], derivative = 0.0;
+    for (int k = degree - 1; k >= 0; --k) {
+      derivative = derivative * t + value;
+      value = value * t + c[static_cast<std::size_t>(k)];
+    }
+    value -= level;
+    ((value > 0.0) == (start > 0.0) ? low : high) = t;
+    const double newton = t - value / derivative;
+    const bool is_inside = newton >= low && newton <= high;
+    const double next = is_inside ? newton : 0.5 * (low + high);
+    if (std::fabs(next - t) <= (is_inside ? settled : 0.0)) return next;
+    t = next;
+  }
+  return t;
+}
+
 }  // namespace crashsim

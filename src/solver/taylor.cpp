@@ -7,7 +7,7 @@ namespace crashsim {
 namespace {
 
 /// n-th coefficient of the square of a series.
-double square_coefficient(const Coefficients& c, std::size_t n) {
+[[gnu::always_inline]] inline double square_coefficient(const Coefficients& c, std::size_t n) {
   double sum = 0.0;
   for (std::size_t i = 0; 2 * i < n; ++i) sum += c[i] * c[n - i];
   sum *= 2.0;
@@ -17,12 +17,10 @@ double square_coefficient(const Coefficients& c, std::size_t n) {
 
 /// Largest step whose last two terms stay below the tolerance.
 double step_length(const StepPolynomial& step, double tolerance_mps) {
-  double inverse = 0.0;
-  for (int k = step.degree - 1; k <= step.degree; ++k) {
-    const double size = std::fabs(step.v[static_cast<std::size_t>(k)]) / tolerance_mps;
-    if (size > 0.0) inverse = std::max(inverse, std::exp(std::log(size) / k));
-  }
-  return inverse > 0.0 ? 1.0 / inverse : std::numeric_limits<double>::infinity();
+  double log_inverse = -std::numeric_limits<double>::infinity();
+  for (int k = kTaylorDegree - 1; k <= kTaylorDegree; ++k)
+    log_inverse = std::max(log_inverse, std::log(std::fabs(step.v[static_cast<std::size_t>(k)]) / tolerance_mps) / k);
+  return std::exp(-log_inverse);
 }
 
 /// Series of the energy the damper takes: W' = damper(v) v.
@@ -39,14 +37,15 @@ void energy_series(const Quadratic& damper, double dissipated, StepPolynomial& s
 
 }  // namespace
 
-void taylor_series(const RegionForce& force, double mass_kg, double x, double v, int degree, StepPolynomial& step) {
+void taylor_series(const RegionForce& force, double mass_kg, double x, double v, StepPolynomial& step) {
   const double c0 = -(force.spring[0] + force.damper[0]) / mass_kg;
   const double cx = -force.spring[1] / mass_kg, cxx = -force.spring[2] / mass_kg;
   const double cv = -force.damper[1] / mass_kg, cvv = -force.damper[2] / mass_kg;
-  step.degree = degree;
+  step.degree = kTaylorDegree;
   step.x[0] = x;
   step.v[0] = v;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(degree); ++n) {
+#pragma GCC unroll 16
+  for (std::size_t n = 0; n < static_cast<std::size_t>(kTaylorDegree); ++n) {
     const double a = (n == 0 ? c0 : 0.0) + cx * step.x[n] + cxx * square_coefficient(step.x, n) + cv * step.v[n] +
                      cvv * square_coefficient(step.v, n);
     const double factor = 1.0 / static_cast<double>(n + 1);
@@ -67,7 +66,7 @@ void TaylorStepper::restart(const CrushProblem& problem, const Region& region, d
 }
 
 const StepPolynomial& TaylorStepper::advance(double end_time_s) {
-  taylor_series(force_, mass_kg_, x_, v_, degree_, step_);
+  taylor_series(force_, mass_kg_, x_, v_, step_);
   if (with_energy_) energy_series(force_.damper, dissipated_, step_);
   const double remaining = end_time_s - t_;
   const double length = step_length(step_, tolerance_ * speed_mps_);

@@ -34,6 +34,8 @@ const std::map<std::string, Layer> kLayers = {
     {"option_values", base},
     {"options", base},
     {"parallel", base},
+    {"instruction_set", base},
+    {"vector_types", base},
     {"piecewise_linear", base},
     {"record", base},
     {"record_json", base},

@@ -1,0 +1,7 @@
+#include "optimize/fit_kernel_body.hpp"
+
+namespace crashsim {
+
+const FitKernel kFitKernelAvx512 = kKernel<8>;
+
+}  // namespace crashsim
