@@ -77,7 +77,7 @@ struct Identification {
   std::vector<std::vector<double>> correlation;  ///< Between ordinates, in their order; unset where meaningless.
   std::vector<StartReport> starts;
   int starts_at_best = 0;   ///< Starts with E within 0.1 % of the best.
-  long evaluations = 0;     ///< Of the objective, with gradient.
+  long evaluations = 0;     ///< Of the objective, with its derivatives; the best start goes on beyond its own.
   double seconds = kUnset;  ///< Wall time.
   std::uint64_t seed = 0;
   std::vector<std::string> warnings;

@@ -54,8 +54,8 @@ double acceleration(const CrushProblem& problem, const Region& region, double x,
 
 }  // namespace
 
-/// Walks a target's samples along the motion, piece by piece. `on_samples(piece, samples)` looks at each piece, before
-/// the sensitivities of x and v to every parameter are carried to its end.
+/// Walks a target's samples along the motion, piece by piece. `on_samples(samples)` looks at those of each piece,
+/// before the sensitivities of x and v to every parameter are carried to its end.
 template <class OnSamples>
 class FitObjective::Walk {
  public:

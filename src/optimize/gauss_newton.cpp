@@ -121,7 +121,7 @@ Minimum minimize_by_gauss_newton(const NormalEquations& function, std::span<cons
     if (decrease > kGoodStep * promised) damping = std::max(damping / 5.0, kLeastDamping);
     if (decrease < kPoorStep * promised) damping *= 3.0;
     std::swap(here, trial);
-    if (decrease <= ftol_rel * here.value) break;
+    if (decrease <= ftol_rel * here.value && damping < kFirstDamping) break;  // not for a step that was held short
   }
   best.point.assign(here.point.begin(), here.point.end());
   best.value = here.value;

@@ -20,7 +20,8 @@ struct Rung {
 };
 constexpr Rung kLadder[] = {{3e-1, 1e-5}, {3e-2, 1e-6}, {3e-3, 1e-7}, {3e-4, 1e-7}};
 /// The same by Gauss and Newton's steps, which NLopt's descent on the true loss ends.
-constexpr Rung kNewtonLadder[] = {{3e-1, 1e-3}, {3e-2, 1e-3}, {3e-3, 1e-4}, {3e-4, 1e-5}};
+constexpr Rung kNewtonLadder[] = {{3e-1, 1e-4}, {1e-1, 1e-4}, {3e-2, 1e-4}, {1e-2, 1e-4},
+                                  {3e-3, 1e-4}, {1e-3, 1e-4}, {3e-4, 1e-5}};
 constexpr Rung kNewtonSmooth[] = {{0.0, 1e-6}};  // of losses that need no ladder
 constexpr double kFtolPolish = 1e-5;             // on the true |u|, where starts agree within 1e-3
 constexpr double kFtolBest = 1e-8;               // on the true loss, by the best start alone
@@ -132,7 +133,10 @@ std::vector<StartResult> run_starts(const StartPlan& plan, const Progress& progr
       });
   if (const int best = best_of(results); best >= 0 && !stop) {
     StartResult& result = results[static_cast<std::size_t>(best)];
-    result.report.error = Descent(plan, plan.make_functions(), stop, result).by_nlopt({0.0, kFtolBest});
+    const StartReport report = result.report;  // of the start alone: it must not depend on the others
+    Descent(plan, plan.make_functions(), stop, result).by_nlopt({0.0, kFtolBest});
+    result.further_evaluations = result.report.evaluations - report.evaluations;
+    result.report = report;
   }
   return results;
 }
@@ -143,7 +147,7 @@ StartSummary summarize_starts(const std::vector<StartResult>& results, double no
   for (const StartResult& result : results) {
     if (result.report.evaluations == 0) continue;
     summary.reports.push_back(result.report);
-    summary.evaluations += result.report.evaluations;
+    summary.evaluations += result.report.evaluations + result.further_evaluations;
   }
   if (summary.best < 0) return summary;
   const double least = results[static_cast<std::size_t>(summary.best)].report.error;

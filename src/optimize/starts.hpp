@@ -43,10 +43,11 @@ struct StartPlan {
 struct StartResult {
   std::vector<double> parameters;
   StartReport report;
+  int further_evaluations = 0;  ///< By which the best start has gone on.
 };
 
-/// Descends from every start; parameters are points of the unit box. The outcome does not depend on the number of
-/// threads. Starts that `progress` kept from ending have no evaluations.
+/// Descends from every start, and from the best one further; parameters are points of the unit box. The outcome does
+/// not depend on the number of threads. Starts that `progress` kept from ending have no evaluations.
 std::vector<StartResult> run_starts(const StartPlan& plan, const Progress& progress);
 
 /// What the starts that ended came to.

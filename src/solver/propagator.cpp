@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "instruction_set.hpp"
+#include "solver/propagator_kernel.hpp"
+
 namespace crashsim {
 namespace {
 
@@ -71,14 +74,21 @@ const Propagator::StepMatrix* Propagator::matrix_if_recurring(double h) {
 }
 
 void Propagator::run(std::span<const double> times, std::span<const ForcePiece> forces, std::span<PitchState> states) {
-  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+  static const PropagatorKernel& kernel = KernelChoice<PropagatorKernel>{
+      kPropagatorKernelBaseline, kPropagatorKernelAvx2, kPropagatorKernelAvx512}(widest_instruction_set());
+  const std::size_t last = times.size() - 1;
+  for (std::size_t i = 0; i < last;) {
     const double h = times[i + 1] - times[i];
-    if (const StepMatrix* matrix = matrix_if_recurring(h)) {
-      const Eigen::Vector4d forced = matrix->rightCols<6>() * forces[i].reshaped();
-      states[i + 1] = matrix->leftCols<4>() * states[i] + forced;
-    } else {
+    const StepMatrix* matrix = matrix_if_recurring(h);
+    if (matrix == nullptr) {
       states[i + 1] = step(states[i], forces[i], h);
+      ++i;
+      continue;
     }
+    std::size_t end = i + 1;
+    while (end < last && std::abs(times[end + 1] - times[end] - h) <= same_step_s_) ++end;
+    kernel.run(matrix->data(), forces[i].data(), states[i].data(), end - i);
+    i = end;
   }
 }
 

@@ -87,7 +87,7 @@ TEST(Multistart, CountsTheStartsAtTheBest) {
   EXPECT_GE(fit.starts_at_best, 1);
   long evaluations = 0;
   for (const StartReport& start : fit.starts) evaluations += start.evaluations;
-  EXPECT_EQ(fit.evaluations, evaluations);
+  EXPECT_GT(fit.evaluations, evaluations);  // the best start has gone on
   EXPECT_GT(fit.seconds, 0.0);
 }
 
