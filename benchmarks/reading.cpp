@@ -1,9 +1,10 @@
 /// bench_reading: how fast traces are read from files in memory (warm cache), by one thread.
 ///
 ///     bench_reading write FOLDER MEGABYTES    writes a file of each format, prints their paths
-///     bench_reading read FILE...              reads each five times, prints the best as a row of a table
+///     bench_reading read FILE...              reads each five times, prints the best as a line of JSON
 ///
-/// The checksum is the sum of all samples in the file's units, for other readers to compare with.
+/// `memory` is the most that was allocated over the arrays kept; the checksum is the sum of all samples in the file's
+/// units, for other readers to compare with.
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <crashsim/error.hpp>
 #include <crashsim/trace_io.hpp>
@@ -80,10 +82,14 @@ void read(const std::string& path) {
     const Reading reading = read_once(path);
     if (std::isnan(best.seconds) || reading.seconds < best.seconds) best = reading;
   }
-  fmt::print("{:<12} {:<14} {:8.1f} {:9.3f} {:8.0f} {:9.1f} {:9.1f} {:6.2f}  {:.15g}\n",
-             std::filesystem::path(path).filename().string(), "crashsim", best.file_bytes / kMega, best.seconds,
-             best.file_bytes / kMega / best.seconds, best.kept_bytes / kMega, best.peak_bytes / kMega,
-             best.peak_bytes / best.kept_bytes, best.checksum);
+  const nlohmann::json result = {{"workload", "reading"},
+                                 {"engine", "crashsim"},
+                                 {"file", std::filesystem::path(path).filename().string()},
+                                 {"megabytes", best.file_bytes / kMega},
+                                 {"seconds", best.seconds},
+                                 {"memory", best.peak_bytes / best.kept_bytes},
+                                 {"checksum", best.checksum}};
+  fmt::print("{}\n", result.dump());
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -97,8 +103,6 @@ int run(const std::vector<std::string>& arguments) {
     fmt::print(stderr, "usage: bench_reading write FOLDER MEGABYTES | read FILE...\n");
     return 2;
   }
-  fmt::print("{:<12} {:<14} {:>8} {:>9} {:>8} {:>9} {:>9} {:>6}  {}\n", "file", "reader", "MB", "seconds", "MB/s",
-             "kept MB", "peak MB", "ratio", "checksum");
   for (std::size_t i = 1; i < arguments.size(); ++i) read(arguments[i]);
   return 0;
 }

@@ -1,41 +1,41 @@
-"""The readers that a Python user has, on the files of `bench_reading write`: same columns as `bench_reading read`.
+"""The readers that a Python user has, on the files of `bench_reading write`: printed as `bench_reading read` does.
 
 Usage: reading.py FOLDER        packages that are not installed are left out, with a word on stderr
 """
 
+import json
 import pathlib
 import re
 import sys
 import time
+from collections.abc import Callable, Iterable
 
 REPETITIONS = 3
 
 
-def report(file, reader, megabytes, read):
+def report(file: str, engine: str, megabytes: float, read: Callable[[], float]) -> None:
     """Times `read`, which returns the sum of all samples, and prints the best of a few."""
-    best = float("inf")
+    best, checksum = float("inf"), 0.0
     for _ in range(REPETITIONS):
         start = time.perf_counter()
-        checksum = read()
+        checksum = float(read())
         best = min(best, time.perf_counter() - start)
-    print(
-        f"{file:<12} {reader:<14} {megabytes:8.1f} {best:9.3f} {megabytes / best:8.0f} "
-        f"{'':>9} {'':>9} {'':>6}  {checksum:.15g}"
-    )
+    result = {"file": file, "megabytes": megabytes, "seconds": best, "checksum": checksum}
+    print(json.dumps({"workload": "reading", "engine": engine, **result}), flush=True)
 
 
-def size_of(files):
+def size_of(files: Iterable[pathlib.Path]) -> float:
     return sum(file.stat().st_size for file in files) / 1e6
 
 
-def with_numpy(folder):
+def with_numpy(folder: pathlib.Path) -> None:
     import numpy
 
     channels = sorted(file for file in folder.glob("v1.*") if re.fullmatch(r"v1\.\d+", file.name))[:200]
     report("v1.EV5 (200)", "numpy.loadtxt", size_of(channels), lambda: sum(numpy.loadtxt(f)[:, 1].sum() for f in channels))
 
 
-def with_pandas(folder):
+def with_pandas(folder: pathlib.Path) -> None:
     import pandas
 
     channels = sorted(file for file in folder.glob("v1.*") if re.fullmatch(r"v1\.\d+", file.name))[:200]
@@ -46,10 +46,10 @@ def with_pandas(folder):
     report("table.csv", "pandas", size_of([table]), read_table)
 
 
-def with_lasso(folder):
+def with_lasso(folder: pathlib.Path) -> None:
     from lasso.dyna import Binout
 
-    def read():
+    def read() -> float:
         binout = Binout(str(folder / "binout0000"))
         names = [name for name in binout.read("nodout") if name.startswith(("x_", "y_", "z_")) or name == "cycle"]
         return sum(binout.read("nodout", name).sum(dtype="float64") for name in names)
@@ -57,7 +57,7 @@ def with_lasso(folder):
     report("binout0000", "lasso-python", size_of([folder / "binout0000"]), read)
 
 
-def main():
+def main() -> None:
     folder = pathlib.Path(sys.argv[1])
     for read in (with_numpy, with_pandas, with_lasso):
         try:
