@@ -13,7 +13,7 @@ namespace crashsim::bench {
 void JsonLines::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.error_occurred) throw std::runtime_error(run.benchmark_name() + ": " + run.error_message);
-    if (run.aggregate_name != "median") continue;
+    if (run.repetitions > 1 && run.aggregate_name != "median") continue;
     const std::string& name = run.run_name.function_name;
     const std::size_t bar = name.find('|');
     const double unit = benchmark::GetTimeUnitMultiplier(run.time_unit);

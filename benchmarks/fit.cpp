@@ -104,7 +104,8 @@ void identify_as(benchmark::State& state, const FitWorkload& workload, const Ide
 
 void register_fit() {
   measure("gradient", "crashsim: E alone, Taylor", [](benchmark::State& s) { evaluate(s, fit_workload(), false); });
-  measure("gradient", "crashsim: E and gradient, Taylor", [](benchmark::State& s) { evaluate(s, fit_workload(), true); });
+  measure("gradient", "crashsim: E and gradient, Taylor",
+          [](benchmark::State& s) { evaluate(s, fit_workload(), true); });
   measure("gradient", "crashsim: simulate, taylor", [](benchmark::State& s) { simulate_at_points(s, fit_workload()); });
   const auto measure_identify = [](const std::string& engine, IdentifyMethod method, int starts, int jobs) {
     measure("W2", engine, [=](benchmark::State& state) {
@@ -120,6 +121,14 @@ void register_fit() {
   measure_identify("crashsim identify, 100 starts, 2 threads", IdentifyMethod::multistart, 100, 2);
   measure_identify("crashsim equation error + one NLopt run", IdentifyMethod::multistart, 1, 1);
   measure_identify("crashsim equation error alone", IdentifyMethod::equation_error, 1, 1);
+  for (int target = 0; target < kTargets; ++target)
+    measure("targets", fmt::format("target {}", target),
+            [target](benchmark::State& state) {
+              const FitWorkload workload = fit_workload(620, 7, target);
+              identify_as(state, workload, workload.options);
+            })
+        ->Repetitions(1)
+        ->Iterations(1);
 }
 
 }  // namespace crashsim::bench

@@ -1,6 +1,7 @@
-/// bench_instructions PATH: goes through a hot path once in `hot_path()`, for callgrind to count its instructions
-/// (script/bench instructions). What comes before warms up.
+/// bench_instructions PATH TIMES: goes through a hot path so many times, for callgrind to count its instructions
+/// (script/bench instructions). The difference between two runs is what the path costs, on all its threads.
 
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <memory>
@@ -30,12 +31,10 @@ Work gradient_once() {
     FitObjective objective{structure, targets, Loss::l1, 0.0};
     std::vector<double> gradient = std::vector<double>(objective.size());
   };
-  return [kept = std::make_shared<Kept>()] {
-    kept->objective.evaluate(kept->workload.points[0], 0.0, kept->gradient);
-  };
+  return [kept = std::make_shared<Kept>()] { kept->objective.evaluate(kept->workload.points[0], 0.0, kept->gradient); };
 }
 
-/// With two starts the second is a random one; the first, from the equation error, is short.
+/// With two starts the second is a random one; the first is from the equation error.
 Work identify_starts(int starts) {
   return [workload = fit_workload(), starts] {
     IdentifyOptions options = workload.options;
@@ -60,24 +59,17 @@ const std::map<std::string, std::function<Work()>> kPaths = {
 }  // namespace
 }  // namespace crashsim::bench
 
-/// What callgrind counts; not inlined, and found by its name.
-extern "C" [[gnu::noinline]] void hot_path(const crashsim::bench::Work& work) {
-  work();
-  asm volatile("");  // no tail call: the function ends after its work
-}
-
 int main(int argc, char** argv) {
   using namespace crashsim::bench;
-  const std::string path = argc == 2 ? argv[1] : "";
+  const std::string path = argc > 1 ? argv[1] : "";
   if (path == "--list") {
     for (const auto& [name, make] : kPaths) fmt::print("{}\n", name);
     return 0;
   }
-  if (!kPaths.contains(path)) {
-    fmt::print(stderr, "usage: bench_instructions PATH, one of --list\n");
+  if (argc != 3 || !kPaths.contains(path)) {
+    fmt::print(stderr, "usage: bench_instructions PATH TIMES, a path of --list\n");
     return 2;
   }
   const Work work = kPaths.at(path)();
-  work();
-  hot_path(work);
+  for (int i = std::atoi(argv[2]); i > 0; --i) work();
 }

@@ -6,7 +6,8 @@
 
 namespace crashsim::bench {
 
-/// Writes the medians of the repetitions to the standard output. A benchmark's name is `workload|engine`; counters become members.
+/// Writes the medians of the repetitions to the standard output. A benchmark's name is `workload|engine`; counters
+/// become members.
 class JsonLines : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }

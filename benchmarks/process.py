@@ -59,7 +59,7 @@ def main() -> None:
     given = parser.parse_args()
     repetitions = 5 if given.quick else 21
     pulse, model, response = (str(given.folder / name) for name in ("pulse.csv", "model.json", "response.csv"))
-    simulate = ["simulate", "data/syn-a/model.json", "-o", response]
+    simulate = ["simulate", "data/syn-a/model.json", "-o", response, "--force"]
     measure("crashsim simulate, file to file", [given.crashsim, *simulate], repetitions)
     pulses = {"finite-element car": ["data/fe-car/C56.csv", "--channel", "LEFT_REAR_VX", "--channel", "RIGHT_REAR_VX"]}
     if CAMRY.exists():
@@ -67,8 +67,12 @@ def main() -> None:
     else:
         print(f"process.py: {CAMRY} is not there: left out", file=sys.stderr)
     for name, arguments in pulses.items():
-        measure(f"crashsim pulse, {name}", [given.crashsim, "pulse", *arguments, "-o", pulse], repetitions)
-        measure(f"crashsim identify, {name}", [given.crashsim, "identify", pulse, "-o", model], min(repetitions, 7))
+        measure(f"crashsim pulse, {name}", [given.crashsim, "pulse", *arguments, "-o", pulse, "--force"], repetitions)
+        measure(
+            f"crashsim identify, {name}",
+            [given.crashsim, "identify", pulse, "-o", model, "--force"],
+            min(repetitions, 7),
+        )
     for python in given.python:
         for module, base in (("numpy", "sys"), ("crashsim", "numpy"), ("scipy.integrate", "sys")):
             measure_import(python, module, base, repetitions)

@@ -1,5 +1,6 @@
 """Results of script/bench: one JSON object a line, in files named after the part that measured them."""
 
+import itertools
 import json
 import math
 import pathlib
@@ -37,7 +38,7 @@ def seconds_at_error(results: Sequence[Result], error: float) -> float | None:
     if not good:
         return None
     cheapest: float = min(r["seconds"] for r in good)
-    for better, worse in zip(runs, runs[1:]):
+    for better, worse in itertools.pairwise(runs):
         if better["error"] <= error < worse["error"] and worse["seconds"] < better["seconds"]:
             place = math.log(error / worse["error"]) / math.log(better["error"] / worse["error"])
             between = worse["seconds"] * (better["seconds"] / worse["seconds"]) ** place

@@ -62,11 +62,14 @@ void register_scaling() {
   using State = benchmark::State;
   const auto samples = {601, 1201, 2401, 4801, 9601, 19201};
   measure_over("simulate, cvode: samples", samples, [](State& s, int n) { simulate_samples(s, Integrator::cvode, n); });
-  measure_over("simulate, taylor: samples", samples, [](State& s, int n) { simulate_samples(s, Integrator::taylor, n); });
+  measure_over("simulate, taylor: samples", samples,
+               [](State& s, int n) { simulate_samples(s, Integrator::taylor, n); });
   measure_over("simulate_pitch: samples", samples, pitch_samples);
-  measure_over("E and gradient: samples", {310, 620, 1240, 2480, 4960, 9920}, [](State& s, int n) { gradient(s, n, 7); });
+  measure_over("E and gradient: samples", {310, 620, 1240, 2480, 4960, 9920},
+               [](State& s, int n) { gradient(s, n, 7); });
   measure_over("E and gradient: knots of each curve", {4, 7, 14, 28, 56}, [](State& s, int n) { gradient(s, 620, n); });
-  measure_over("identify, 25 starts: samples", {310, 620, 1240, 2480}, [](State& s, int n) { identify_starts(s, n, 25, 1); });
+  measure_over("identify, 25 starts: samples", {310, 620, 1240, 2480},
+               [](State& s, int n) { identify_starts(s, n, 25, 1); });
   measure_over("identify: starts", {12, 25, 50, 100, 200}, [](State& s, int n) { identify_starts(s, 620, n, 1); });
   measure_over("identify, 100 starts: threads", {1, 2}, [](State& s, int n) { identify_starts(s, 620, 100, n); });
 }

@@ -11,13 +11,14 @@
 namespace crashsim::bench {
 namespace {
 
-constexpr double kMass = 1719.0;                // [kg]
-constexpr double kSpeed = 15.86;                // [m/s]
-constexpr double kCrush = 0.7;                  // last spring knot [m]
-constexpr Range kStiffness{1e5, 9e5};           // ordinates that stop such a car in 40..110 ms [N/m]
-constexpr Range kDamping{1e3, 12e3};            // [N s/m]
-constexpr double kReferenceRtol = 1e-12;
-constexpr double kNoise = 0.02;                 // standard deviation over the channel's maximum
+constexpr double kMass = 1719.0;       // [kg]
+constexpr double kSpeed = 15.86;       // [m/s]
+constexpr double kCrush = 0.7;         // last spring knot of W1 [m]
+constexpr double kMaxCrush = 0.58;     // of W2 [m]: stops in about 62 ms, 620 samples at 10 kHz
+constexpr Range kStiffness{1e5, 9e5};  // ordinates that stop such a car in 40..110 ms [N/m]
+constexpr Range kDamping{1e3, 12e3};   // [N s/m]
+constexpr double kReferenceRtol = 1e-12, kPitchReferenceRtol = 1e-13;
+constexpr double kNoise = 0.02;  // standard deviation over the channel's maximum
 constexpr std::uint64_t kModels = 1, kTruth = 2, kNoiseSeed = 3, kPoints = 4, kForces = 5;
 
 double random_between(Range range, std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
@@ -37,12 +38,12 @@ PiecewiseLinear random_curve(double last, int knots, Range range, std::uint64_t 
   return curve;
 }
 
-CrushModel model_from(std::uint64_t seed, std::uint64_t index, int knots) {
+CrushModel model_from(std::uint64_t seed, std::uint64_t index, double last_knot, int knots) {
   CrushModel model;
   model.mass_kg = kMass;
   model.impact_speed_mps = kSpeed;
   model.unloading.bilateral = true;
-  model.spring = random_curve(kCrush, knots, kStiffness, seed, 2 * index);
+  model.spring = random_curve(last_knot, knots, kStiffness, seed, 2 * index);
   model.damper = random_curve(kSpeed, knots, kDamping, seed, 2 * index + 1);
   return model;
 }
@@ -64,17 +65,18 @@ void reach_last_knot(CrushModel& model) {
       const auto& ordinates = (curve == &model.spring ? unscaled.spring : unscaled.damper).ordinates;
       std::ranges::transform(ordinates, curve->ordinates.begin(), [&](double ordinate) { return factor * ordinate; });
     }
-    (max_crush(model) > kCrush ? low : high) = factor;
+    (max_crush(model) > model.spring.knots.back() ? low : high) = factor;
   }
 }
 
 void add_noise(std::vector<double>& channel, std::uint64_t stream) {
   double largest = 0.0;
   for (const double value : channel) largest = std::max(largest, std::fabs(value));
-  for (std::size_t i = 0; i < channel.size(); ++i) channel[i] += kNoise * largest * random_normal(kNoiseSeed, stream, i);
+  for (std::size_t i = 0; i < channel.size(); ++i)
+    channel[i] += kNoise * largest * random_normal(kNoiseSeed, stream, i);
 }
 
-Pulse noisy_pulse(const CrushModel& model, int samples) {
+Pulse noisy_pulse(const CrushModel& model, int samples, std::uint64_t stream) {
   SimulateOptions options;
   options.to_max_crush = true;
   options.rtol = kReferenceRtol;
@@ -87,21 +89,30 @@ Pulse noisy_pulse(const CrushModel& model, int samples) {
   pulse.accel_mps2 = run.accel_mps2;
   pulse.velocity_mps = run.velocity_mps;
   pulse.displacement_m = run.displacement_m;
-  add_noise(pulse.accel_mps2, 0);
-  add_noise(pulse.velocity_mps, 1);
-  add_noise(pulse.displacement_m, 2);
+  add_noise(pulse.accel_mps2, stream);
+  add_noise(pulse.velocity_mps, stream + 1);
+  add_noise(pulse.displacement_m, stream + 2);
   pulse.mass_kg = model.mass_kg;
   pulse.impact_speed_mps = model.impact_speed_mps;
   pulse.t_m_s = t_m;
-  pulse.max_crush_m = kCrush;
+  pulse.max_crush_m = kMaxCrush;
   return pulse;
 }
 
-std::vector<double> random_ordinates(const IdentifyOptions& options, std::uint64_t seed, std::uint64_t stream) {
+/// Anywhere between the bounds.
+std::vector<double> random_start(const IdentifyOptions& options, std::uint64_t index) {
   std::vector<double> ordinates;
   for (int i = 0; i < options.spring_knots + options.damper_knots; ++i)
     ordinates.push_back((i < options.spring_knots ? options.spring_upper : options.damper_upper) *
-                        uniform_random(seed, stream, static_cast<std::uint64_t>(i)));
+                        uniform_random(options.seed, index, static_cast<std::uint64_t>(i)));
+  return ordinates;
+}
+
+/// Near enough to the truth to stay in contact: elsewhere crashsim's model separates, and others' do not.
+std::vector<double> random_point(const CrushModel& truth, std::uint64_t index) {
+  std::vector<double> ordinates = truth.spring.ordinates;
+  ordinates.insert(ordinates.end(), truth.damper.ordinates.begin(), truth.damper.ordinates.end());
+  for (std::size_t i = 0; i < ordinates.size(); ++i) ordinates[i] *= random_between({0.6, 1.4}, kPoints, index, i);
   return ordinates;
 }
 
@@ -128,7 +139,9 @@ double ninetieth_percentile(std::vector<double> errors) {
   return errors.at((errors.size() * 9 + 9) / 10 - 1);
 }
 
-CrushModel random_model(int index, int knots) { return model_from(kModels, static_cast<std::uint64_t>(index), knots); }
+CrushModel random_model(int index, int knots) {
+  return model_from(kModels, static_cast<std::uint64_t>(index), kCrush, knots);
+}
 
 ForwardWorkload forward_workload(int models) {
   ForwardWorkload workload;
@@ -146,19 +159,18 @@ Channels channels_of(const CrushResponse& response) {
   return {response.displacement_m, response.velocity_mps, response.accel_mps2};
 }
 
-FitWorkload fit_workload(int samples, int knots) {
+FitWorkload fit_workload(int samples, int knots, int target) {
+  const auto index = static_cast<std::uint64_t>(target);
   FitWorkload workload;
-  workload.truth = model_from(kTruth, 0, knots);
+  workload.truth = model_from(kTruth, index, kMaxCrush, knots);
   reach_last_knot(workload.truth);
-  workload.pulse = noisy_pulse(workload.truth, samples);
+  workload.pulse = noisy_pulse(workload.truth, samples, 3 * index);
   workload.options.jobs = 1;
   workload.options.spring_knots = workload.options.damper_knots = knots;
   workload.options.spring_upper = 3.0 * std::ranges::max(workload.truth.spring.ordinates);
   workload.options.damper_upper = 3.0 * std::ranges::max(workload.truth.damper.ordinates);
-  for (std::uint64_t i = 1; i <= 100; ++i)
-    workload.starts.push_back(random_ordinates(workload.options, workload.options.seed, i));
-  for (std::uint64_t i = 0; i < 10; ++i)
-    workload.points.push_back(random_ordinates(workload.options, kPoints, i));
+  for (std::uint64_t i = 1; i <= 100; ++i) workload.starts.push_back(random_start(workload.options, i));
+  for (std::uint64_t i = 0; i < 10; ++i) workload.points.push_back(random_point(workload.truth, i));
   return workload;
 }
 
@@ -183,7 +195,7 @@ PitchWorkload pitch_workload(int samples) {
   }
   PitchOptions tight = workload.options;
   tight.integrator = PitchIntegrator::cvode;
-  tight.rtol = kReferenceRtol;
+  tight.rtol = kPitchReferenceRtol;
   workload.reference = channels_of(simulate_pitch(workload.model, forcing, tight));
   return workload;
 }

@@ -5,6 +5,7 @@ Usage: diffrax_peer.py FOLDER [--quick]
 
 import os
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import harness
@@ -43,7 +44,6 @@ def curves_of(model: Crush) -> tuple[Any, ...]:
 def make_descend(fit: harness.Fit) -> Callable[[Array], Array]:
     import jax
     import jax.numpy as jnp
-    from scipy.optimize import minimize
 
     run = make_run(fit.times)
     crush, count = fit.crush, len(fit.crush.spring)
@@ -63,11 +63,7 @@ def make_descend(fit: harness.Fit) -> Callable[[Array], Array]:
         value, gradient = error(places)
         return float(value), np.array(gradient)
 
-    def descend(places: Array) -> Array:
-        bounds = [(0.0, 1.0)] * len(places)
-        return np.array(minimize(value_and_gradient, places, jac=True, method="SLSQP", bounds=bounds).x)
-
-    return descend
+    return partial(harness.descend_by_slsqp, value_and_gradient, jac=True)
 
 
 def main() -> None:
@@ -83,7 +79,7 @@ def main() -> None:
     def simulate(model: Crush, tolerance: float) -> Array:
         return np.array(run(curves_of(model), model.speed, tolerance))
 
-    harness.measure_forward(forward, "diffrax Tsit5", simulate, (1e-4, 1e-6, 1e-8, 1e-10), 10 if quick else 50)
+    harness.measure_forward(forward, "diffrax Tsit5", simulate, 10 if quick else 50)
     harness.measure_fit(fit, "diffrax + SLSQP", make_descend(fit), 1 if quick else 10)
 
 

@@ -5,6 +5,7 @@ line, as benchmarks/json_lines.hpp does. Packages that are not installed make it
 """
 
 import argparse
+import contextlib
 import dataclasses
 import importlib
 import json
@@ -13,12 +14,15 @@ import statistics
 import sys
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from functools import partial
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Outcome = TypeVar("Outcome")
+TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -116,13 +120,15 @@ def read_fit(folder: pathlib.Path) -> Fit:
     bounds = np.concatenate(
         [np.full(len(crush.spring), w["spring_upper"]), np.full(len(crush.damper), w["damper_upper"])]
     )
-    return Fit(crush, *(np.array(w[name]) for name in ("times", "target")), bounds, np.array(w["starts"]), np.array(w["points"]))
+    times, target, starts, points = (np.array(w[name]) for name in ("times", "target", "starts", "points"))
+    return Fit(crush, times, target, bounds, starts, points)
 
 
 def read_pitch(folder: pathlib.Path) -> Pitch:
     w = read_json(folder / "w3.json")
     forces = np.array([w["heave_force"], w["pitch_moment"]]).T
-    return Pitch(*(np.array(w[name]) for name in ("times", "mass", "damping", "stiffness")), forces, np.array(w["reference"]))
+    times, mass, damping, stiffness = (np.array(w[name]) for name in ("times", "mass", "damping", "stiffness"))
+    return Pitch(times, mass, damping, stiffness, forces, np.array(w["reference"]))
 
 
 def largest_error(result: Array, reference: Array) -> float:
@@ -135,14 +141,15 @@ def ninetieth_percentile(errors: Sequence[float]) -> float:
     return sorted(errors)[(len(errors) * 9 + 9) // 10 - 1]
 
 
-def cpu_seconds(work: Callable[[], object], repetitions: int = 1) -> float:
-    """CPU time of the process (CLOCK_PROCESS_CPUTIME_ID) for one call, the median of some."""
-    seconds = []
-    for _ in range(repetitions):
-        start = time.process_time()
-        work()
-        seconds.append(time.process_time() - start)
-    return statistics.median(seconds)
+def timed(work: Callable[[], Outcome]) -> tuple[float, Outcome]:
+    """CPU time of the process (CLOCK_PROCESS_CPUTIME_ID) for one call, and what it gave."""
+    start = time.process_time()
+    outcome = work()
+    return time.process_time() - start, outcome
+
+
+def median_seconds(work: Callable[[], object], repetitions: int) -> float:
+    return statistics.median(timed(work)[0] for _ in range(repetitions))
 
 
 def report(workload: str, engine: str, seconds: float, **more: object) -> None:
@@ -150,24 +157,33 @@ def report(workload: str, engine: str, seconds: float, **more: object) -> None:
 
 
 def measure_forward(
-    workload: Forward, engine: str, simulate: Callable[[Crush, float], Array], tolerances: Sequence[float], models: int = 50, **more: object
+    workload: Forward, engine: str, simulate: Callable[[Crush, float], Array], models: int = 50
 ) -> None:
-    """Times `simulate(model, tolerance)`, which returns channels, over the first models."""
-    for tolerance in tolerances:
+    """Times `simulate(model, tolerance)`, which returns channels, over the first models, at several tolerances."""
+    for tolerance in TOLERANCES:
         chosen = workload.models[:models]
         simulate(chosen[0], tolerance)  # compiles what is compiled on first use
-        results: list[Array] = []
-        seconds = [cpu_seconds(lambda m=model: results.append(simulate(m, tolerance))) for model in chosen]  # type: ignore[misc]
-        errors = [largest_error(result, reference) for result, reference in zip(results, workload.reference)]
-        report("W1", engine, statistics.median(seconds), rtol=tolerance, error=ninetieth_percentile(errors), models=models, **more)
+        runs = [timed(partial(simulate, model, tolerance)) for model in chosen]
+        errors = [largest_error(result, reference) for (_, result), reference in zip(runs, workload.reference)]
+        seconds = statistics.median(seconds for seconds, _ in runs)
+        report("W1", engine, seconds, rtol=tolerance, error=ninetieth_percentile(errors), models=models)
 
 
 def measure_fit(workload: Fit, engine: str, descend: Callable[[Array], Array], starts: int) -> None:
     """Times `descend(places)`, which returns better places, from the first starts; extrapolates to all 100."""
-    ends: list[Array] = []
-    seconds = cpu_seconds(lambda: ends.extend(descend(start / workload.bounds) for start in workload.starts[:starts]))
-    errors = [accurate_error(workload, np.clip(places, 0.0, 1.0)) for places in ends]
-    report("W2", engine, seconds * 100 / starts, starts=starts, E=min(errors), ends=errors)
+    runs = [timed(partial(descend, start / workload.bounds)) for start in workload.starts[:starts]]
+    errors = [accurate_error(workload, np.clip(places, 0.0, 1.0)) for _, places in runs]
+    seconds = sum(seconds for seconds, _ in runs) * 100 / starts
+    report("W2", engine, seconds, starts=starts, E=min(errors), ends=errors)
+
+
+def descend_by_slsqp(function: Callable[[Array], Any], places: Array, jac: bool = False) -> Array:
+    """SciPy's SLSQP as one would set it up with care: differences well above the noise of the simulation."""
+    from scipy.optimize import minimize
+
+    options = {"ftol": 1e-9, "maxiter": 1000} | ({} if jac else {"eps": 1e-5})
+    bounds = [(0.0, 1.0)] * len(places)
+    return np.array(minimize(function, places, jac=jac, method="SLSQP", bounds=bounds, options=options).x)
 
 
 def accurate_error(workload: Fit, places: Array) -> float:
@@ -186,7 +202,8 @@ def need(*packages: str) -> None:
     """Leaves with a message when a package is not installed."""
     for package in packages:
         try:
-            importlib.import_module(package)
+            with contextlib.redirect_stdout(sys.stderr):  # results only
+                importlib.import_module(package)
         except Exception as problem:  # whatever a foreign package does when it is loaded
             print(f"{pathlib.Path(sys.argv[0]).stem}: skipped: {package}: {problem}", file=sys.stderr)
             raise SystemExit(0) from None

@@ -56,23 +56,16 @@ def make_simulate(times: Array) -> Callable[[Crush, float], Array]:
     return simulate
 
 
-def descend(fit: harness.Fit, simulate: Callable[[Crush, float], Array], places: Array) -> Array:
-    from scipy.optimize import minimize
-
-    bounds = [(0.0, 1.0)] * len(places)
-    found = minimize(lambda p: fit.error(simulate(fit.model(p), 1e-8)), places, method="SLSQP", bounds=bounds)
-    return np.array(found.x)
-
-
 def main() -> None:
     harness.need("numba", "numbalsoda", "scipy")
     folder, quick = harness.arguments()
     forward, fit = harness.read_forward(folder), harness.read_fit(folder)
     simulate = make_simulate(forward.times)
-    harness.measure_forward(forward, "numba, numbalsoda", simulate, (1e-4, 1e-6, 1e-8, 1e-10), 50)
+    harness.measure_forward(forward, "numba, numbalsoda", simulate)
     simulate = make_simulate(fit.times)
     simulate(fit.crush, 1e-8)  # compiled before it is timed
-    harness.measure_fit(fit, "numba + SLSQP", partial(descend, fit, simulate), 2 if quick else 20)
+    error = lambda places: fit.error(simulate(fit.model(places), 1e-8))  # noqa: E731
+    harness.measure_fit(fit, "numba + SLSQP", partial(harness.descend_by_slsqp, error), 2 if quick else 50)
 
 
 if __name__ == "__main__":

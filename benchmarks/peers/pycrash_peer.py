@@ -1,5 +1,5 @@
-"""PyCrash's single-degree-of-freedom model. It has no damper: the models of W1 run without theirs, against a barrier that
-weighs a million tonnes, and are compared up to maximum crush.
+"""PyCrash's single-degree-of-freedom model. It has no damper: the models of W1 run without theirs, against a barrier
+that weighs a million tonnes, and are compared up to maximum crush.
 
 Usage: pycrash_peer.py FOLDER [--quick]
 """
@@ -9,6 +9,7 @@ import dataclasses
 import io
 import statistics
 import warnings
+from functools import partial
 
 import harness
 import numpy as np
@@ -28,7 +29,8 @@ def simulate(model: Crush) -> tuple[Array, Array]:
     force = np.interp(crush, model.spring_knots, model.spring) * crush
     table = pandas.DataFrame({"disp": crush / FOOT, "force": force / POUND_FORCE})
     weight, speed = model.mass / SLUG * GRAVITY, model.speed / FOOT / MPH
-    with contextlib.redirect_stdout(io.StringIO()), warnings.catch_warnings(action="ignore"):
+    with contextlib.redirect_stdout(io.StringIO()), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
         run = SingleDOFmodel(weight, speed, 0, BARRIER, 0.0, 0, table, 0.5, 0.0, "tableK", 0)
     closing = run["v1"].to_numpy(dtype=float) > 0.0
     columns = (run[name].to_numpy(dtype=float)[closing] for name in ("t", "x1", "v1", "a1"))
@@ -53,9 +55,8 @@ def main() -> None:
     models = harness.read_forward(folder).models[: 2 if quick else 5]
     for with_damper in models:
         model = dataclasses.replace(with_damper, damper=np.zeros_like(with_damper.damper))
-        results = []
-        seconds.append(harness.cpu_seconds(lambda: results.append(simulate(model))))  # noqa: B023
-        times, motion = results[0]
+        spent, (times, motion) = harness.timed(partial(simulate, model))
+        seconds.append(spent)
         errors.append(harness.largest_error(motion, reference(model, times)))
     error = harness.ninetieth_percentile(errors)
     harness.report("W1", "PyCrash SDOF, without damper", statistics.median(seconds), error=error, models=len(models))

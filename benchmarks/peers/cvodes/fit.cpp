@@ -33,21 +33,30 @@ struct Fit {
   std::size_t size() const { return bounds.size(); }
 };
 
-/// Rates of a sensitivity by place p: of velocity and, added up, acceleration.
-double sensitivity_rate(const Fit& fit, std::size_t p, double x, double v, const double* sensitivity) {
-  const Crush& crush = fit.crush;
+/// The force about a state, which all sensitivities share.
+struct Tangent {
+  CurvePoint spring, damper;
+  double by_x, by_v;
+};
+
+Tangent tangent(const Crush& crush, double x, double v) {
   const CurvePoint spring = evaluate(crush.spring, x), damper = evaluate(crush.damper, v);
-  const std::size_t springs = crush.spring.knots.size();
+  return {spring, damper, spring.value + spring.slope * std::fabs(x), damper.value + damper.slope * std::fabs(v)};
+}
+
+/// d(acceleration)/d(place p), with the sensitivities of x and v.
+double acceleration_by(const Fit& fit, std::size_t p, const Tangent& at, const double* state,
+                       const double* sensitivity) {
+  const std::size_t springs = fit.crush.spring.knots.size();
   const bool of_spring = p < springs;
-  const CurvePoint& curve = of_spring ? spring : damper;
+  const CurvePoint& curve = of_spring ? at.spring : at.damper;
   const std::size_t ordinate = of_spring ? p : p - springs;
   double weight = 0.0;
   if (ordinate == curve.first) weight = curve.first_weight;
   if (ordinate == curve.first + 1) weight = curve.second_weight;
-  const double force = (spring.value + spring.slope * std::fabs(x)) * sensitivity[0] +
-                       (damper.value + damper.slope * std::fabs(v)) * sensitivity[1] +
-                       fit.bounds[p] * weight * (of_spring ? x : v);
-  return -force / crush.mass;
+  const double force =
+      at.by_x * sensitivity[0] + at.by_v * sensitivity[1] + fit.bounds[p] * weight * (of_spring ? state[0] : state[1]);
+  return -force / fit.crush.mass;
 }
 
 int state_rhs(sunrealtype, N_Vector y, N_Vector ydot, void* data) {
@@ -60,13 +69,14 @@ int state_rhs(sunrealtype, N_Vector y, N_Vector ydot, void* data) {
 
 int sensitivity_rhs(int count, sunrealtype, N_Vector y, N_Vector, N_Vector* s, N_Vector* sdot, void* data, N_Vector,
                     N_Vector) {
+  const Fit& fit = *static_cast<const Fit*>(data);
   const double* state = N_VGetArrayPointer(y);
+  const Tangent at = tangent(fit.crush, state[0], state[1]);
   for (int p = 0; p < count; ++p) {
     const double* sensitivity = N_VGetArrayPointer(s[p]);
     double* rate = N_VGetArrayPointer(sdot[p]);
     rate[0] = sensitivity[1];
-    rate[1] = sensitivity_rate(*static_cast<const Fit*>(data), static_cast<std::size_t>(p), state[0], state[1],
-                               sensitivity);
+    rate[1] = acceleration_by(fit, static_cast<std::size_t>(p), at, state, sensitivity);
   }
   return 0;
 }
@@ -76,10 +86,11 @@ int augmented_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void* data) {
   const double* state = N_VGetArrayPointer(y);
   double* rate = N_VGetArrayPointer(ydot);
   state_rhs(t, y, ydot, data);
+  const Tangent at = tangent(fit.crush, state[0], state[1]);
   for (std::size_t p = 0; p < fit.size(); ++p) {
     const double* sensitivity = state + 2 + 2 * p;
     rate[2 + 2 * p] = sensitivity[1];
-    rate[3 + 2 * p] = sensitivity_rate(fit, p, state[0], state[1], sensitivity);
+    rate[3 + 2 * p] = acceleration_by(fit, p, at, state, sensitivity);
   }
   return 0;
 }
@@ -87,8 +98,7 @@ int augmented_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void* data) {
 void set_places(Fit& fit, const double* places) {
   const std::size_t springs = fit.crush.spring.knots.size();
   for (std::size_t p = 0; p < fit.size(); ++p)
-    (p < springs ? fit.crush.spring.ordinates[p] : fit.crush.damper.ordinates[p - springs]) =
-        fit.bounds[p] * places[p];
+    (p < springs ? fit.crush.spring.ordinates[p] : fit.crush.damper.ordinates[p - springs]) = fit.bounds[p] * places[p];
 }
 
 std::unique_ptr<Solver> make_solver(Fit& fit) {
@@ -119,6 +129,7 @@ double evaluate(Fit& fit, const double* places, double* gradient) {
     const double* y = solver->at(fit.times[i]);
     double** separate = fit.method == Method::augmented ? nullptr : solver->sensitivities();
     const double motion[3] = {y[0], y[1], acceleration(fit.crush, y[0], y[1])};
+    const Tangent tangent_there = tangent(fit.crush, y[0], y[1]);
     double slope[3];
     for (std::size_t c = 0; c < 3; ++c) {
       const double r = (motion[c] - fit.target[c][i]) / scales[c];
@@ -128,7 +139,7 @@ double evaluate(Fit& fit, const double* places, double* gradient) {
     }
     for (std::size_t p = 0; p < fit.size(); ++p) {
       const double* s = separate == nullptr ? y + 2 + 2 * p : separate[p];
-      gradient[p] += slope[0] * s[0] + slope[1] * s[1] + slope[2] * sensitivity_rate(fit, p, y[0], y[1], s);
+      gradient[p] += slope[0] * s[0] + slope[1] * s[1] + slope[2] * acceleration_by(fit, p, tangent_there, y, s);
     }
   }
   return sum;

@@ -27,8 +27,7 @@ int pitch_rhs(sunrealtype t, N_Vector y, N_Vector ydot, void* data) {
   const double weight = place - static_cast<double>(i);
   for (std::size_t r = 0; r < 2; ++r) {
     double force = (1.0 - weight) * pitch.forces[r][i] + weight * pitch.forces[r][i + 1];
-    for (std::size_t c = 0; c < 2; ++c)
-      force -= pitch.damping[r][c] * state[2 + c] + pitch.stiffness[r][c] * state[c];
+    for (std::size_t c = 0; c < 2; ++c) force -= pitch.damping[r][c] * state[2 + c] + pitch.stiffness[r][c] * state[c];
     rate[r] = state[2 + r];
     rate[2 + r] = force / pitch.mass[r][r];
   }

@@ -46,7 +46,9 @@ double ninetieth_percentile(std::vector<double> errors) {
 }
 
 Crush crush_from(const nlohmann::json& model) {
-  const auto curve = [&](const char* name) { return Curve{model.at(name).at("knots"), model.at(name).at("ordinates")}; };
+  const auto curve = [&](const char* name) {
+    return Curve{model.at(name).at("knots"), model.at(name).at("ordinates")};
+  };
   return {model.at("mass"), model.at("speed"), curve("spring"), curve("damper")};
 }
 

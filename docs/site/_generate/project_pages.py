@@ -8,6 +8,7 @@ PAGES = {
     "docs/model.md": "theory/model.md",
     "docs/paper.md": "theory/paper.md",
     "docs/formats.md": "reference/formats.md",
+    "docs/benchmarks.md": "benchmarks.md",
     "data/README.md": "reference/data.md",
     "CHANGELOG.md": "changelog.md",
 }
