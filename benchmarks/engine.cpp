@@ -16,7 +16,9 @@ void JsonLines::ReportRuns(const std::vector<Run>& runs) {
     if (run.repetitions > 1 && run.aggregate_name != "median") continue;
     const std::string& name = run.run_name.function_name;
     const std::size_t bar = name.find('|');
-    const double unit = benchmark::GetTimeUnitMultiplier(run.time_unit);
+    const auto items = run.counters.find("items");
+    const double unit =
+        benchmark::GetTimeUnitMultiplier(run.time_unit) * (items == run.counters.end() ? 1.0 : items->second.value);
     nlohmann::json line = {{"workload", name.substr(0, bar)},
                            {"engine", name.substr(bar + 1)},
                            {"sundials", CRASHSIM_SUNDIALS},
@@ -37,6 +39,7 @@ int main(int argc, char** argv) {
     register_forward();
     register_fit();
     register_pitch();
+    register_many();
     register_scaling();
     JsonLines reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -43,6 +43,13 @@ Work identify_starts(int starts) {
   };
 }
 
+Work simulate_lanes() {
+  SimulateManyOptions options;
+  options.times_s = forward_workload(1).options.times_s;
+  options.jobs = 1;
+  return [models = random_models(64), options] { simulate_many(models, options); };
+}
+
 Work pitch_once() {
   return [workload = pitch_workload()] { simulate_pitch(workload.model, workload.forcing, workload.options); };
 }
@@ -53,6 +60,7 @@ const std::map<std::string, std::function<Work()>> kPaths = {
     {"value_and_gradient", gradient_once},
     {"identify_1_start", [] { return identify_starts(1); }},
     {"identify_2_starts", [] { return identify_starts(2); }},
+    {"simulate_many_64", simulate_lanes},
     {"pitch_propagator", pitch_once},
 };
 

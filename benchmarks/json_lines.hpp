@@ -24,6 +24,7 @@ benchmark::internal::Benchmark* measure(const std::string& workload, const std::
 void register_forward();
 void register_fit();
 void register_pitch();
+void register_many();
 void register_scaling();
 
 }  // namespace crashsim::bench

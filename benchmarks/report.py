@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterable, Sequence
 
 import targets
-from results import Result, fitted_exponents, read, seconds_at_error, select
+from results import Result, fitted_exponents, number, read, seconds_at_error, select
 
 SUNDIALS = {"source": "Release", "system": "packaged", "": ""}
 COMPARED_AT = 1e-6  # achieved error at which forward runs are compared
@@ -19,13 +19,6 @@ COMPARED_AT = 1e-6  # achieved error at which forward runs are compared
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def number(value: float | None, digits: int = 3) -> str:
-    if value is None:
-        return "-"
-    text = f"{value:.{digits}g}"
-    return text if "e" not in text or abs(value) < 1e-3 else f"{value:.0f}"
 
 
 def microseconds(seconds: float | None) -> str:
@@ -102,11 +95,11 @@ def pitch(results: Sequence[Result]) -> str:
 
 def many(results: Sequence[Result]) -> str:
     rows = [
-        [r["engine"], SUNDIALS[r.get("sundials", "")], number(r.get("models")), microseconds(r["seconds"]),
-         number(r.get("error"), 2)]
-        for r in select(results, "many")
+        [r["engine"], SUNDIALS[r.get("sundials", "")], number(r.get("models")), number(r.get("rtol")),
+         microseconds(r["seconds"]), number(r.get("error"), 2)]
+        for r in sorted(select(results, "many"), key=lambda r: r["seconds"])
     ]  # fmt: skip
-    return table(["engine", "SUNDIALS", "models", "us a model", "error"], rows)
+    return table(["engine", "SUNDIALS", "models", "rtol", "us a model", "error"], rows)
 
 
 def process(results: Sequence[Result]) -> str:
@@ -142,9 +135,9 @@ def instructions(results: Sequence[Result]) -> str:
 def points(results: Sequence[Result]) -> str:
     rows = []
     for target in targets.all_targets(results):
-        measured = "not measured" if target.measured is None else number(target.measured)
+        measured = "not measured" if target.measured is None else number(target.measured, target.digits)
         error = number(target.error, 2) if target.error is not None else ""
-        asked = f"{target.relation} {number(target.bound)}"
+        asked = f"{target.relation} {number(target.bound, target.digits)}"
         rows.append([str(target.point), target.what, measured, asked, error, target.verdict()])
     return table(["point", "what", "measured", "asked", "achieved error", ""], rows)
 

@@ -10,6 +10,14 @@ from typing import Any
 Result = dict[str, Any]
 
 
+def number(value: float | None, digits: int = 3) -> str:
+    """As one reads it: significant digits, no exponent for large ones. "-" for None."""
+    if value is None:
+        return "-"
+    text = f"{value:.{digits}g}"
+    return text if "e" not in text or abs(value) < 1e-3 else f"{value:.0f}"
+
+
 def read(folder: pathlib.Path) -> list[Result]:
     """All results; each gets the name of its part."""
     found = []

@@ -56,6 +56,15 @@ void pitch_samples(benchmark::State& state, int samples) {
   for (auto _ : state) benchmark::DoNotOptimize(simulate_pitch(workload.model, workload.forcing, workload.options));
 }
 
+void many_models(benchmark::State& state, int models, int jobs) {
+  const CrushModels all = random_models(models);
+  SimulateManyOptions options;
+  options.end_time_s = 0.12;
+  options.jobs = jobs;
+  CrushResponses responses;
+  for (auto _ : state) simulate_many(all, options, responses);
+}
+
 }  // namespace
 
 void register_scaling() {
@@ -71,6 +80,9 @@ void register_scaling() {
   measure_over("identify, 25 starts: samples", {310, 620, 1240, 2480},
                [](State& s, int n) { identify_starts(s, n, 25, 1); });
   measure_over("identify: starts", {12, 25, 50, 100, 200}, [](State& s, int n) { identify_starts(s, 620, n, 1); });
+  measure_over("simulate_many: models", {100, 200, 400, 800, 1600, 3200},
+               [](State& s, int n) { many_models(s, n, 1); });
+  measure_over("simulate_many, 1600 models: threads", {1, 2}, [](State& s, int n) { many_models(s, 1600, n); });
   measure_over("identify, 100 starts: threads", {1, 2}, [](State& s, int n) { identify_starts(s, 620, 100, n); });
 }
 

@@ -143,6 +143,19 @@ CrushModel random_model(int index, int knots) {
   return model_from(kModels, static_cast<std::uint64_t>(index), kCrush, knots);
 }
 
+CrushModels random_models(int count) {
+  CrushModels models;
+  models.common = random_model(0);
+  models.spring_ordinates.resize(count, static_cast<Eigen::Index>(models.common.spring.knots.size()));
+  models.damper_ordinates.resize(count, static_cast<Eigen::Index>(models.common.damper.knots.size()));
+  for (int i = 0; i < count; ++i) {
+    const CrushModel model = random_model(i);
+    std::ranges::copy(model.spring.ordinates, models.spring_ordinates.row(i).begin());
+    std::ranges::copy(model.damper.ordinates, models.damper_ordinates.row(i).begin());
+  }
+  return models;
+}
+
 ForwardWorkload forward_workload(int models) {
   ForwardWorkload workload;
   for (int i = 0; i <= 1200; ++i) workload.options.times_s.push_back(1e-4 * i);

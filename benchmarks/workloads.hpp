@@ -12,6 +12,7 @@
 #include <crashsim/heave_pitch_model.hpp>
 #include <crashsim/identify.hpp>
 #include <crashsim/simulate.hpp>
+#include <crashsim/simulate_many.hpp>
 #include <crashsim/simulate_pitch.hpp>
 
 namespace crashsim::bench {
@@ -32,6 +33,7 @@ struct ForwardWorkload {
   std::vector<Channels> reference;  ///< x, v, a of each model by CVODE at rtol 1e-12.
 };
 CrushModel random_model(int index, int knots = 7);
+CrushModels random_models(int count);  ///< The first random models as arrays.
 ForwardWorkload forward_workload(int models = 50);
 Channels channels_of(const CrushResponse& response);
 

@@ -66,6 +66,22 @@ def make_descend(fit: harness.Fit) -> Callable[[Array], Array]:
     return partial(harness.descend_by_slsqp, value_and_gradient, jac=True)
 
 
+def measure_many(workload: harness.Forward, run: Callable[..., Any], models: int) -> None:
+    """All models in one call, vectorised."""
+    import jax
+
+    chosen = workload.models[:models]
+    curves = tuple(np.stack(values) for values in zip(*(curves_of(model) for model in chosen)))
+    speeds = np.array([model.speed for model in chosen])
+    together = jax.jit(jax.vmap(run, in_axes=(0, 0, None)))
+    for tolerance in (1e-8, 1e-10):
+        results = np.array(together(curves, speeds, tolerance))  # compiles
+        seconds = harness.median_seconds(lambda t=tolerance: np.array(together(curves, speeds, t)), 3)  # type: ignore[misc]
+        errors = [harness.largest_error(r, reference) for r, reference in zip(results, workload.reference)]
+        error = harness.ninetieth_percentile(errors)
+        harness.report("many", "diffrax Tsit5, vmap", seconds / models, rtol=tolerance, error=error, models=models)
+
+
 def main() -> None:
     os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1")
     harness.need("diffrax", "scipy")
@@ -80,6 +96,7 @@ def main() -> None:
         return np.array(run(curves_of(model), model.speed, tolerance))
 
     harness.measure_forward(forward, "diffrax Tsit5", simulate, 10 if quick else 50)
+    measure_many(forward, make_run(forward.times), 20 if quick else 50)
     harness.measure_fit(fit, "diffrax + SLSQP", make_descend(fit), 1 if quick else 10)
 
 

@@ -78,7 +78,7 @@ def main() -> None:
     error = lambda places: fit.error(with_odeint(fit.times, fit.model(places), 1e-8))  # noqa: E731
     harness.measure_fit(fit, "SciPy odeint + SLSQP", partial(harness.descend_by_slsqp, error), 1 if quick else 10)
     if not quick:  # half a minute a start
-        harness.measure_fit(fit, "SciPy solve_ivp + L-BFGS-B", partial(descend_as_it_comes, fit), 3)
+        harness.measure_fit(fit, "SciPy solve_ivp + L-BFGS-B, as it comes", partial(descend_as_it_comes, fit), 3)
 
 
 if __name__ == "__main__":
