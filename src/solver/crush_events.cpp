@@ -28,58 +28,62 @@ struct SignChange {
   double tau;
   bool pulls_at_once;  ///< Negative from the start.
 };
-SignChange sign_change(const RegionForce& force, const StepPolynomial& step, double margin) {
-  const auto at = [&](double tau) { return contact_force(force, step.x_at(tau), step.v_at(tau), margin); };
-  const auto slope = [&](double tau) {
-    const double x = step.x_at(tau), v = step.v_at(tau);
-    return derivative(force.spring, x) * v + derivative(force.damper, v) * horner_derivative(step.v, step.degree, tau);
+SignChange sign_change(const RegionForce& force, double mass_kg, const StepPolynomial& step, double margin) {
+  const auto at = [&](const CrushState& y) { return contact_force(force, y.x, y.v, margin); };
+  const auto exactly = [&](const CrushState& y) { return value(force.spring, y.x) + value(force.damper, y.v); };
+  const auto slope = [&](const CrushState& y) {
+    return derivative(force.spring, y.x) * y.v - derivative(force.damper, y.v) * exactly(y) / mass_kg;
   };
   double start = step.from;
-  double first = at(start);
+  CrushState from = step.start;
+  double first = at(from);
   if (first == 0.0) {  // just turned, or no force yet: what comes next decides
     start += (step.to - step.from) / 64.0;
-    first = at(start);
+    from = step.state_at(start);
+    first = at(from);
   }
   if (first == 0.0) return {step.to, false};
   const double sign = first > 0.0 ? 1.0 : -1.0;
   double end = step.to;
-  if (sign * at(end) >= 0.0) {
+  const double last = at(step.end);
+  if (sign * last >= 0.0) {
     // An excursion inside the step shows as a minimum of the signed force, which the tangents at the ends bound.
-    const double fall = sign * slope(start), rise = sign * slope(end);
+    const double fall = sign * slope(from), rise = sign * slope(step.end);
     if (!(fall < 0.0 && rise > 0.0)) return {step.to, sign < 0.0};
-    if (sign * first + fall * (end - start) > 0.0 || sign * at(end) - rise * (end - start) > 0.0)
+    if (sign * first + fall * (end - start) > 0.0 || sign * last - rise * (end - start) > 0.0)
       return {step.to, sign < 0.0};
     double low = start, high = end;
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
-      (sign * slope(middle) < 0.0 ? low : high) = middle;
+      (sign * slope(step.state_at(middle)) < 0.0 ? low : high) = middle;
     }
     end = low;
-    if (sign * at(end) >= 0.0) return {step.to, sign < 0.0};
+    if (sign * at(step.state_at(end)) >= 0.0) return {step.to, sign < 0.0};
   }
   const auto f = [&](double tau) {
-    return ValueAndDerivative{value(force.spring, step.x_at(tau)) + value(force.damper, step.v_at(tau)), slope(tau)};
+    const CrushState y = step.state_at(tau);
+    return ValueAndDerivative{exactly(y), slope(y)};
   };
   return {bracketed_root(f, start, end), sign < 0.0};
 }
 
 /// Narrows `event` to the time the polynomial `c` reaches a bound of its segment, if it does until event.tau. `margin`
 /// is the distance that rounding alone makes: nearer to a knot is at it.
-void cross_bounds(const ForceAxis& axis, int segment, const Coefficients& c, double margin, const StepPolynomial& step,
-                  EventKind kind, Event& event) {
-  const double end = horner(c, step.degree, event.tau);
+void cross_bounds(const ForceAxis& axis, int segment, const Coefficients& c, double CrushState::*variable,
+                  double margin, const StepPolynomial& step, EventKind kind, Event& event) {
+  const double end = event.tau == step.to ? step.end.*variable : horner(c, step.degree, event.tau);
   // A force that vanishes exactly at a knot changes sign there only in the segment it leaves: the knot comes first.
   const double slope = event.kind == EventKind::none ? 0.0 : horner_derivative(c, step.degree, event.tau);
   const bool below = end < axis.lower(segment) + (slope < 0.0 ? margin : -margin);
   if (!below && !(end > axis.upper(segment) - (slope > 0.0 ? margin : -margin))) return;
   const double level = below ? axis.lower(segment) : axis.upper(segment);
   const double side = below ? 1.0 : -1.0;  // positive times distance: not yet there
-  const double start = side * (horner(c, step.degree, step.from) - level);
+  const double start = side * (step.start.*variable - level);
   double tau = event.tau;
   if (start <= 0.0)
     tau = step.from;
   else if (side * (end - level) < 0.0)
-    tau = level_crossing(c, step.degree, level, step.from, event.tau);
+    tau = level_crossing(c, step.degree, level, {step.from, step.start.*variable}, {event.tau, end});
   event = {kind, tau, below ? -1 : +1, level};
 }
 
@@ -103,14 +107,16 @@ Event first_event(const CrushProblem& problem, const Region& region, const StepP
   const double margin = state_rounding(problem.speed_mps);
   const bool bilateral = problem.unloading.bilateral;
   if (region.unloading && bilateral) return event;  // one line to the end
-  const SignChange change = sign_change(region_force(problem, region), step, margin);
+  const SignChange change = sign_change(region_force(problem, region), problem.mass_kg, step, margin);
   if (!bilateral && change.pulls_at_once)
     event = {EventKind::separation, step.from, 0, 0.0};
   else if (change.tau < step.to)
     event = {bilateral ? EventKind::turn : EventKind::separation, change.tau, 0, 0.0};
   if (region.unloading) return event;
-  cross_bounds(problem.force.damper, region.damper, step.v, margin, step, EventKind::damper_knot, event);
-  cross_bounds(problem.force.spring, region.spring, step.x, margin * kCrashTime, step, EventKind::spring_knot, event);
+  cross_bounds(problem.force.damper, region.damper, step.v, &CrushState::v, margin, step, EventKind::damper_knot,
+               event);
+  cross_bounds(problem.force.spring, region.spring, step.x, &CrushState::x, margin * kCrashTime, step,
+               EventKind::spring_knot, event);
   return event;
 }
 

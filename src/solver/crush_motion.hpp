@@ -67,7 +67,8 @@ MotionSummary integrate_motion(const CrushProblem& problem, const MotionLimits& 
     const Event event = first_event(problem, state.region, step);
     if (!is_at_once(event, step)) visitor.on_piece(state.region, step, event.tau);
     const Region before = state.region;
-    end_step(problem, limits, event, step.base + event.tau, step.x_at(event.tau), step.v_at(event.tau), state);
+    const auto [x, v] = step.state_at(event.tau);
+    end_step(problem, limits, event, step.base + event.tau, x, v, state);
     if (event.kind == EventKind::none) continue;
     visitor.on_event(before, state.region, state.x, state.v);
     if (state.ended) break;

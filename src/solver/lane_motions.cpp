@@ -99,6 +99,8 @@ StepPolynomial LaneMotions::polynomial(std::size_t lane) const {
     step.x[n] = block_.x[n][lane];
     step.v[n] = block_.v[n][lane];
   }
+  step.start = {step.x[0], step.v[0]};
+  step.end = {step.x_at(step.to), step.v_at(step.to)};
   return step;
 }
 
@@ -138,9 +140,9 @@ void LaneMotions::end_step(std::size_t lane) {
   const Event event = event_of(lane);
   double x = block_.x_to[lane], v = block_.v_to[lane];
   if (event.tau != block_.tau[lane]) {  // not where the kernel has ended it
-    const StepPolynomial step = polynomial(lane);
-    x = step.x_at(event.tau);
-    v = step.v_at(event.tau);
+    const CrushState there = polynomial(lane).state_at(event.tau);
+    x = there.x;
+    v = there.v;
   }
   const double end = times_[samples_ - 1];
   const bool at_end = event.kind == EventKind::none && block_.length[lane] >= block_.remaining[lane];

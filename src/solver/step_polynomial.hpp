@@ -24,14 +24,20 @@ inline double horner_derivative(const Coefficients& c, int degree, double tau) {
   return sum;
 }
 
+struct CrushState {
+  double x = 0.0, v = 0.0;
+};
+
 /// Crush, velocity and dissipated energy as polynomials in tau = t - base, valid for from <= tau <= to.
 struct StepPolynomial {
   double base = 0.0, from = 0.0, to = 0.0;
   int degree = 0;
   Coefficients x{}, v{}, dissipated{};
+  CrushState start{}, end{};  ///< States at `from` and `to`.
 
   [[nodiscard]] double x_at(double tau) const { return horner(x, degree, tau); }
   [[nodiscard]] double v_at(double tau) const { return horner(v, degree, tau); }
+  [[nodiscard]] CrushState state_at(double tau) const { return tau == to ? end : CrushState{x_at(tau), v_at(tau)}; }
   [[nodiscard]] double dissipated_at(double tau) const { return horner(dissipated, degree, tau); }
 };
 
@@ -57,10 +63,15 @@ struct ValueAndDerivative {
   double value, derivative;
 };
 
-/// Where in [low, high] a polynomial reaches `level`, which it crosses once there. Newton's method from the parabola
-/// through both ends that has the slope of the first, with bisection where it would leave the bracket.
-inline double level_crossing(const Coefficients& c, int degree, double level, double low, double high) {
-  const double start = horner(c, degree, low) - level, end = horner(c, degree, high) - level;
+/// Where a polynomial reaches `level`, which it crosses once between two points with the values given. Newton's method
+/// from the parabola through both that has the slope of the first, with bisection where it would leave the bracket.
+struct CurvePoint {
+  double tau, value;
+};
+inline double level_crossing(const Coefficients& c, int degree, double level, const CurvePoint& first,
+                             const CurvePoint& last) {
+  double low = first.tau, high = last.tau;
+  const double start = first.value - level, end = last.value - level;
   const double width = high - low, settled = 1e-9 * width;  // the move after this one is below rounding
   const double slope = horner_derivative(c, degree, low) * width, bend = end - start - slope;
   const double chord = start / (start - end);

@@ -73,8 +73,10 @@ const StepPolynomial& TaylorStepper::advance(double end_time_s) {
   step_.base = t_;
   step_.from = 0.0;
   step_.to = std::min(length, remaining);
+  step_.start = {x_, v_};
   x_ = step_.x_at(step_.to);
   v_ = step_.v_at(step_.to);
+  step_.end = {x_, v_};
   if (with_energy_) dissipated_ = step_.dissipated_at(step_.to);
   t_ = length < remaining ? t_ + length : end_time_s;
   return step_;
