@@ -73,7 +73,7 @@ void Command::add_output(const std::string& type_name, const std::string& what, 
   app_.add_option("-o,--output", output_, what)
       ->type_name(type_name)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app_.add_flag(overwrite, overwrite_, "replace an output that exists");
+  if (!overwrite.empty()) app_.add_flag(overwrite, overwrite_, "replace an output that exists");
 }
 
 void Command::add_reporting() {

@@ -41,7 +41,8 @@ class Command {
   [[nodiscard]] CLI::App& app() { return app_; }
 
  protected:
-  /// `-o FILE`, and the flag that lets it replace a file: --overwrite, also spelled --force where that is nothing else.
+  /// `-o FILE`, and the flag that lets it replace a file: --overwrite, also spelled --force where that is nothing else;
+  /// none when it is "".
   void add_output(const std::string& type_name, const std::string& what,
                   const std::string& overwrite = "--overwrite,--force");
   /// `--json`, `--quiet` and `--config`.
@@ -124,6 +125,8 @@ std::unique_ptr<Command> make_simulate(CLI::App& app);
 std::unique_ptr<Command> make_pitch(CLI::App& app);
 std::unique_ptr<Command> make_compare(CLI::App& app);
 std::unique_ptr<Command> make_run(CLI::App& app);
+std::unique_ptr<Command> make_batch(CLI::App& app);
+std::unique_ptr<Command> make_merge(CLI::App& app);
 std::unique_ptr<Command> make_design(CLI::App& app);
 std::unique_ptr<Command> make_export(CLI::App& app);
 std::unique_ptr<Command> make_schema(CLI::App& app);

@@ -21,7 +21,7 @@ std::vector<std::unique_ptr<Command>> make_commands(CLI::App& app) {
   std::vector<std::unique_ptr<Command>> commands;
   for (const auto make :
        {make_info, make_pulse, make_wall, make_identify, make_simulate, make_pitch, make_identify_pitch,
-        make_identify_vertical, make_compare, make_run, make_design, make_export, make_schema})
+        make_identify_vertical, make_compare, make_run, make_batch, make_merge, make_design, make_export, make_schema})
     commands.push_back(make(app));
   return commands;
 }

@@ -1,5 +1,6 @@
 #include "progress.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -16,12 +17,14 @@ ProgressLine::~ProgressLine() {
   if (shown_) fmt::print(stderr, "\r\x1b[K");
 }
 
-void ProgressLine::show(int done, int total) {
+void ProgressLine::show(std::size_t done, std::size_t total, std::size_t failed) {
   if (!visible_) return;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-  const double rate = done / elapsed.count();
-  std::string left = done > 0 ? fmt::format(", {:.3g}/s, {:.1f} s left", rate, (total - done) / rate) : "";
-  fmt::print(stderr, "\r\x1b[K  {}/{} {}{}", done, total, what_, left);
+  const double rate = static_cast<double>(done - std::min(done, before_)) / elapsed.count();
+  const std::string lost = failed > 0 ? fmt::format(", {} failed", failed) : "";
+  const std::string left =
+      rate > 0.0 ? fmt::format(", {:.3g}/s, {:.1f} s left", rate, static_cast<double>(total - done) / rate) : "";
+  fmt::print(stderr, "\r\x1b[K  {}/{} {}{}{}", done, total, what_, lost, left);
   std::fflush(stderr);
   shown_ = true;
 }

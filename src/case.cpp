@@ -13,6 +13,7 @@
 #include "case_pitch.hpp"
 #include "case_sections.hpp"
 #include "case_traces.hpp"
+#include "stage_clock.hpp"
 
 namespace crashsim {
 namespace {
@@ -88,6 +89,24 @@ SimulateOptions at_speed(const Case& study, double impact_speed_mps) {
   return options;
 }
 
+/// The model that the case names.
+void use_model(const Case& study, const Unloading& unloading, CaseResult& out) {
+  const std::string path = resolved(study, study.what.model_file);
+  out.model = read_model(path);
+  out.input_files.push_back(path);
+  if (!std::isnan(study.what.mass_kg)) out.model.mass_kg = study.what.mass_kg;
+  overrule(out.model.unloading, unloading);
+}
+
+void simulate_crush(const Case& study, double speed_mps, CaseResult& out) {
+  SimulateOptions options = at_speed(study, speed_mps);
+  if (std::isnan(options.end_time_s) && !options.to_max_crush && out.pulse)
+    options.end_time_s = out.pulse->time_s.back();
+  out.response = simulate(out.model, options);
+  for (const double predicted : study.what.speeds_mps)
+    out.predictions.push_back({prediction_name(predicted), simulate(out.model, at_speed(study, predicted))});
+}
+
 }  // namespace
 
 bool CaseResult::usable() const {
@@ -98,33 +117,29 @@ bool CaseResult::usable() const {
 
 CaseResult run_case(const Case& study, const Progress& progress) {
   CaseResult out;
+  StageClock clock;
   if (!study.what.pulse_file.empty())
     out.pulse = read_case_pulse(study, study.what.pulse_file, study.what.impact_speed_mps, out);
   const Unloading unloading = unloading_of(study, out);
-  if (!study.what.model_file.empty()) {
-    const std::string path = resolved(study, study.what.model_file);
-    out.model = read_model(path);
-    out.input_files.push_back(path);
-    if (!std::isnan(study.what.mass_kg)) out.model.mass_kg = study.what.mass_kg;
-    overrule(out.model.unloading, unloading);
-  } else if (identify_model(study, progress, out)) {
+  if (!study.what.model_file.empty()) use_model(study, unloading, out);
+  out.stages.pulse_s = clock.lap();
+  if (study.what.model_file.empty()) {
+    const bool is_found = identify_model(study, progress, out);
+    out.stages.identify_s = clock.lap();
+    if (!is_found) return out;
     out.model.extrapolation = study.what.extrapolation;
     out.model.unloading = unloading;
-  } else {
-    return out;
   }
 
   double speed = study.what.impact_speed_mps;
   if (std::isnan(speed) && out.pulse) speed = out.pulse->impact_speed_mps;
-  SimulateOptions options = at_speed(study, speed);
-  if (std::isnan(options.end_time_s) && !options.to_max_crush && out.pulse)
-    options.end_time_s = out.pulse->time_s.back();
-  out.response = simulate(out.model, options);
-  for (const double predicted : study.what.speeds_mps)
-    out.predictions.push_back({prediction_name(predicted), simulate(out.model, at_speed(study, predicted))});
+  simulate_crush(study, speed, out);
+  out.stages.simulate_s = clock.lap();
   if (out.response.usable() && has_pitch(study)) simulate_heave_and_pitch(study, speed, out);
+  out.stages.pitch_s = clock.lap();
   if (out.pulse && !out.response.time_s.empty()) compare_with_test(study, out);
   if (out.pitch && !study.measured.file.empty()) compare_heave_and_pitch(study, out);
+  out.stages.compare_s = clock.lap();
   return out;
 }
 

@@ -1,7 +1,6 @@
 #include <crashsim/files.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -11,11 +10,11 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <crashsim/error.hpp>
 
 #include "io/input_file.hpp"
+#include "sha256.hpp"
 
 namespace crashsim {
 namespace {
@@ -108,17 +107,7 @@ void exchange(const fs::path& made, const fs::path& folder) {
 
 std::string read_file(const std::string& path) { return std::string(bytes_of(io::InputFile(path))); }
 
-std::string sha256_of_file(const std::string& path) {
-  const io::InputFile file(path);
-  const std::string_view bytes = bytes_of(file);
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw SystemFailure(fmt::format("{}: SHA-256 failed", path));
-  std::string hex;
-  for (unsigned i = 0; i < length; ++i) hex += fmt::format("{:02x}", digest[i]);
-  return hex;
-}
+std::string sha256_of_file(const std::string& path) { return sha256_of(bytes_of(io::InputFile(path))); }
 
 void write_file_atomically(const std::string& path, std::string_view text, bool overwrite) {
   std::error_code error;

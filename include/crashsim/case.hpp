@@ -22,6 +22,7 @@
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
+#include <crashsim/stage_times.hpp>
 #include <crashsim/summary.hpp>
 #include <crashsim/vertical_force.hpp>
 
@@ -118,6 +119,7 @@ struct CaseResult {
   std::vector<NamedComparison> comparisons;  ///< "to_max_crush", "whole_record", "heave_and_pitch", ..
   std::vector<std::string> input_files;
   std::vector<std::string> notes;  ///< What the case did not say and was taken from elsewhere.
+  StageTimes stages;               ///< Of run_case(): neither reading the case nor writing.
 
   /// True when every step gave a result to rely on.
   [[nodiscard]] bool usable() const;

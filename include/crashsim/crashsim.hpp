@@ -1,6 +1,9 @@
 #pragma once
 /// The whole public interface.
 
+#include <crashsim/batch.hpp>
+#include <crashsim/batch_folder.hpp>
+#include <crashsim/batch_options.hpp>
 #include <crashsim/body_motion.hpp>
 #include <crashsim/case.hpp>
 #include <crashsim/comparison.hpp>
@@ -42,6 +45,7 @@
 #include <crashsim/simulate_many.hpp>
 #include <crashsim/simulate_pitch.hpp>
 #include <crashsim/solver_statistics.hpp>
+#include <crashsim/stage_times.hpp>
 #include <crashsim/summary.hpp>
 #include <crashsim/table_io.hpp>
 #include <crashsim/time_series.hpp>
