@@ -17,7 +17,7 @@ class BatchCommand : public Command {
             parent, "batch",
             "Run many cases on worker processes: a folder and a row of one table each; killed at any moment it goes "
             "on where it was",
-            "crashsim batch data/neon-kw400/case.toml data/syn-a/case.toml -o study") {
+            "crashsim batch 'data/*-kw400/case.toml' data/paper/free.toml -o study") {
     app()
         .add_option("cases", cases_,
                     "case.toml; a record (case.lock.json); a glob in quotes; or a manifest: a text file with one of "

@@ -12,8 +12,8 @@ class MergeCommand : public Command {
  public:
   explicit MergeCommand(CLI::App& parent)
       : Command(parent, "merge", "Join the shards of a batch: the same files as from one run of all cases",
-                "crashsim batch data/neon-kw400/case.toml data/syn-a/case.toml --shard 1/2 -o shard1\n"
-                "  crashsim batch data/neon-kw400/case.toml data/syn-a/case.toml --shard 2/2 -o shard2\n"
+                "crashsim batch 'data/*-kw400/case.toml' --shard 1/2 -o shard1\n"
+                "  crashsim batch 'data/*-kw400/case.toml' --shard 2/2 -o shard2\n"
                 "  crashsim merge shard1 shard2 -o joined") {
     app()
         .add_option("shards", shards_, "folders that crashsim batch --shard has written")

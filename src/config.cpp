@@ -66,10 +66,48 @@ void collect(const toml::table& table, const std::string& section, const std::st
   }
 }
 
+/// Where the string that begins at `at` ends in TOML, one behind its last quote: "..", '..', or three quotes each.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool is_long = text.substr(at).starts_with(three);
+  for (std::size_t i = at + (is_long ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (is_long ? text.substr(i).starts_with(three) : text[i] == quote || text[i] == '\n') {
+      return is_long ? std::max(i + 3, std::min(text.find_first_not_of(quote, i), text.size())) : i + 1;
+    }
+  }
+  return text.size();
+}
+
+/// Refuses a key of so many parts that its tables in tables would exhaust the stack; the parser itself looks after
+/// nested values.
+void check_depth(std::string_view text, const std::string& path) {
+  constexpr int kMostParts = 100;
+  int parts = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      i = end_of_string(text, i);
+      continue;
+    }
+    if (c == '#') i = std::min(text.find('\n', i), text.size() - 1);
+    if (c == '#' || c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') parts = 1;
+    if (c == '.' && ++parts > kMostParts)
+      throw InvalidInput(fmt::format("{}:{}: is a key of more than {} parts: no option has as many", path,
+                                     1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n'),
+                                     kMostParts));
+    ++i;
+  }
+}
+
 }  // namespace
 
 std::vector<ConfigEntry> read_config(const std::string& path) {
-  const toml::parse_result result = toml::parse(read_file(path), path);
+  const std::string text = read_file(path);
+  check_depth(text, path);
+  const toml::parse_result result = toml::parse(text, path);
   if (!result)
     throw InvalidInput(
         fmt::format("{}: is not TOML: {}", place(path, result.error().source()), result.error().description()));

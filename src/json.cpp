@@ -42,6 +42,24 @@ std::string reason_of(const Json::exception& error) {
   return text.substr(std::min(text.find("] ") + 2, text.size()));
 }
 
+/// Refuses nesting that would exhaust the stack of who walks through the value.
+void check_depth(std::string_view text, const std::string& path) {
+  constexpr int kDeepest = 100;
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      for (++i; i < text.size() && text[i] != '"'; ++i)
+        if (text[i] == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest)
+        throw InvalidInput(fmt::format("{}: is nested more than {} levels deep: no file of crashsim is", path, kDeepest));
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
 std::vector<double> numbers_of(const Json& list, std::string_view what) {
   std::vector<double> numbers;
   for (const Json& item : list) {
@@ -96,6 +114,7 @@ std::string format_json(const Json& value) {
 }
 
 Json parse_json(std::string_view text, const std::string& path) {
+  check_depth(text, path);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

@@ -23,7 +23,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::vector<std::string> nearest(std::string_view text, const std::vector<std::string>& candidates, std::size_t count) {
-  const std::string wanted = to_lower(text);
+  constexpr std::size_t kMostLetters = 200;  // the distance takes letters times letters
+  const std::string wanted = to_lower(text.substr(0, kMostLetters));
   std::vector<std::pair<std::size_t, std::size_t>> ranked;  // edits, index
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const std::string candidate = to_lower(candidates[i]);

@@ -33,6 +33,8 @@ Dimension dimension_of_field(std::string_view unit) { return unit.empty() ? Dime
 
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& valid) {
   constexpr std::size_t kFewestLetters = 3;  // "mass" of "mass_kg"
+  constexpr std::size_t kMostLetters = 200;  // nobody meant a name of this with more
+  if (name.size() > kMostLetters) return {};
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(name.size() / 2, 2) + 1;
   for (const std::string_view candidate : valid) {

@@ -21,7 +21,7 @@ void check_output_times(const std::vector<double>& times_s, std::string_view wha
 }
 
 std::vector<double> output_times(double first_s, double end_s, double dt_s, std::string_view what) {
-  constexpr double kMaxSamples = 1e8;
+  constexpr double kMaxSamples = 1e7;
   constexpr double kSameMultiple = 1e-9;  // an end this near a multiple of dt is one
   const double intervals = std::max(1.0, std::ceil((end_s - first_s) / dt_s - kSameMultiple));
   if (intervals > kMaxSamples)

@@ -19,7 +19,7 @@
 namespace crashsim {
 namespace {
 
-constexpr std::size_t kMaxSamples = 100'000'000;
+constexpr std::size_t kMaxSamples = 10'000'000;
 
 /// The arrays beside the times.
 std::array<std::vector<double>*, 6> columns_of(CrushResponse& out) {

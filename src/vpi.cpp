@@ -14,6 +14,7 @@ constexpr double kSlack_m = 0.03;
 constexpr double kStiffnessPerMass = 2500.0;  // 1/s^2
 constexpr double kOmega = 50.0;               // 1/s, its square root
 constexpr double kLongestStep_s = 0.005;      // a twelfth of the oscillation's half: at most one turn a step
+constexpr double kLongestPulse_s = 1e3;  // of a longer one nobody asks, and it would take without end
 constexpr double kShortestStep_s = 1e-9;      // every step moves on, whatever rounding says about its end
 
 /// Unit mass relative to the vehicle: displacement beyond the slack, and speed.
@@ -85,6 +86,7 @@ double coasting_stretch(const Occupant& occupant) {
 double vehicle_pulse_index(const Motion& motion) {
   const auto& [time_s, accel_mps2, velocity_mps, displacement_m] = motion;
   check_series(time_s, accel_mps2, "acceleration", 2);
+  if (time_s.back() - time_s.front() > kLongestPulse_s) return kUnset;
   Occupant occupant;
   double largest = 0.0;
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) {

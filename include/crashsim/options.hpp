@@ -23,6 +23,7 @@ struct Range {
 constexpr Range any_number() { return {}; }
 constexpr Range positive() { return {.min = 0.0, .open_min = true}; }
 constexpr Range at_least(double min) { return {.min = min}; }
+constexpr Range positive_up_to(double max) { return {.min = 0.0, .max = max, .open_min = true}; }
 constexpr Range between(double min, double max) { return {.min = min, .max = max}; }
 
 /// A named rule, or numbers given instead of it (`E::given`): `weights = normalised` or `weights = 1,1,1`.

@@ -34,7 +34,8 @@ struct SimulateOptions {
 inline constexpr std::array<Field<SimulateOptions>, 7> kSimulateFields = {{
     {"impact_speed_mps", "speed", "m/s", "impact speed; default: the model's", &SimulateOptions::impact_speed_mps,
      positive()},
-    {"end_time_s", "end", "s", "time to simulate to; default 0.2 s", &SimulateOptions::end_time_s, positive()},
+    {"end_time_s", "end", "s", "time to simulate to; default 0.2 s", &SimulateOptions::end_time_s,
+     positive_up_to(kLongestMotion_s)},
     {"to_max_crush", "to-max-crush", "", "end at the time of maximum crush", &SimulateOptions::to_max_crush},
     {"dt_s", "dt", "s", "output interval", &SimulateOptions::dt_s, positive()},
     {"times_s", "times", "s", "output times instead of an interval", &SimulateOptions::times_s},

@@ -26,7 +26,8 @@ struct CoupledOptions {
 inline constexpr std::array<Field<CoupledOptions>, 4> kCoupledFields = {{
     {"impact_speed_mps", "speed", "m/s", "impact speed; default: the crush model's", &CoupledOptions::impact_speed_mps,
      positive()},
-    {"end_time_s", "end", "s", "time to simulate to; default 0.3 s", &CoupledOptions::end_time_s, positive()},
+    {"end_time_s", "end", "s", "time to simulate to; default 0.3 s", &CoupledOptions::end_time_s,
+     positive_up_to(kLongestMotion_s)},
     {"dt_s", "dt", "s", "output interval", &CoupledOptions::dt_s, positive()},
     {"rtol", "rtol", "", "relative accuracy", &CoupledOptions::rtol, between(1e-10, 1e-2)},
 }};

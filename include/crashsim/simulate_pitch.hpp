@@ -55,7 +55,8 @@ struct PitchOptions {
 };
 inline constexpr std::array<Field<PitchOptions>, 10> kPitchFields = {{
     {"start", "start", "s", "start of the motion: maximum crush, impact, or a time", setting<&PitchOptions::start>()},
-    {"end_time_s", "end", "s", "time to simulate to; default 0.3 s", &PitchOptions::end_time_s, positive()},
+    {"end_time_s", "end", "s", "time to simulate to; default 0.3 s", &PitchOptions::end_time_s,
+     positive_up_to(kLongestMotion_s)},
     {"dt_s", "dt", "s", "output interval", &PitchOptions::dt_s, positive()},
     {"heave_m", "heave", "m", "initial heave", &PitchOptions::heave_m},
     {"heave_velocity_mps", "heave-velocity", "m/s", "initial heave velocity", &PitchOptions::heave_velocity_mps},

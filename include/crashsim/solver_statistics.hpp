@@ -3,6 +3,9 @@
 
 namespace crashsim {
 
+/// Longest motion that is simulated: far beyond any crash, and no run without end.
+inline constexpr double kLongestMotion_s = 100.0;
+
 /// Work of the integrator.
 struct SolverStatistics {
   long steps = 0;              ///< Accepted steps.

@@ -61,10 +61,11 @@ void tell_results(const CaseResult& result, BatchRow& row) {
   if (!result.usable()) blame_first(result, row);
 }
 
-void fail(BatchRow& row, std::string_view outcome, int exit_code, const char* message) {
+void fail(BatchRow& row, std::string_view outcome, int exit_code, std::string_view message) {
+  constexpr std::size_t kLongest = 1000;  // rows are small, whatever a file makes of its names
   row.outcome = outcome;
   row.exit_code = exit_code;
-  row.message = message;
+  row.message = message.substr(0, kLongest);
 }
 
 /// Runs a case. @returns its files; none when it failed, and the row says why.

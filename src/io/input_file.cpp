@@ -36,7 +36,7 @@ class Descriptor {
 }
 
 std::string read_to_end(int fd, const std::string& path) {
-  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  constexpr std::size_t kBlock = std::size_t{1} << 16, kMost = std::size_t{1} << 30;
   std::string text;
   for (std::size_t used = 0;;) {
     text.resize(used + kBlock);
@@ -44,6 +44,8 @@ std::string read_to_end(int fd, const std::string& path) {
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) refuse(path, errno);
     used += static_cast<std::size_t>(got);
+    if (used > kMost)
+      throw InvalidInput(fmt::format("{}: gives more than {} bytes and is no file: name a file", path, kMost));
     if (got > 0) continue;
     text.resize(used);
     return text;
