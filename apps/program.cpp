@@ -12,9 +12,9 @@
 namespace crashsim::cli {
 namespace {
 
-int complain(std::string message, int exit_code) {
-  constexpr std::size_t kLongest = 4000;  // a name of a megabyte in it helps nobody
-  if (message.size() > kLongest) message = message.substr(0, kLongest / 2) + " .. " + message.substr(message.size() - kLongest / 2);
+int complain(const std::string& what, int exit_code) {
+  constexpr std::size_t kLongest = 4000;
+  const std::string message = shortened(what, kLongest);
   std::fputs(("crashsim: " + message + "\n").c_str(), stderr);  // never throws, whatever stderr is
   return exit_code;
 }

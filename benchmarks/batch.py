@@ -27,9 +27,10 @@ class Run:
 
     seconds: float
     rate: float
-    peak_mb: float
-    """Of the largest process."""
-    report: dict[str, object]
+    program_mb: float
+    """Most memory of the program."""
+    worker_mb: float
+    """And of its largest worker."""
 
 
 def half_sine(speed_mps: float) -> str:
@@ -68,17 +69,37 @@ def write_cases(folder: Path, cases: int, fits: int) -> Path:
     return manifest
 
 
+def peak_mb(pid: int) -> float:
+    """Most memory that a process has had; 0 when it is gone."""
+    try:
+        status = Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return 0.0
+    return next((int(line.split()[1]) / 1024 for line in status.splitlines() if line.startswith("VmHWM")), 0.0)
+
+
+def children_of(pid: int) -> list[int]:
+    """Processes of a process."""
+    try:
+        return [int(word) for word in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except OSError:
+        return []
+
+
 def run(program: str, *arguments: str) -> Run:
-    """Runs the program; the peak is of it and of the workers it waited for."""
+    """Runs the program and watches its memory."""
     begin = time.perf_counter()
     process = subprocess.Popen([program, *arguments, "--json", "--quiet"], stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None
-    report = json.loads(process.stdout.read())
-    _, status, usage = os.wait4(process.pid, 0)
+    own = workers = 0.0
+    while process.poll() is None:
+        own = max(own, peak_mb(process.pid))
+        workers = max([workers, *map(peak_mb, children_of(process.pid))])
+        time.sleep(0.02)
     seconds = time.perf_counter() - begin
-    if status != 0:
-        sys.exit(f"batch.py: crashsim {' '.join(arguments)} ended with status {status}")
-    return Run(seconds, report["total"] / seconds, usage.ru_maxrss / 1024, report)
+    assert process.stdout is not None
+    if process.returncode != 0:
+        sys.exit(f"batch.py: crashsim {' '.join(arguments)} ended with status {process.returncode}")
+    return Run(seconds, json.load(process.stdout)["total"] / seconds, own, workers)
 
 
 def same(a: Path, b: Path) -> bool:
@@ -93,7 +114,7 @@ def same(a: Path, b: Path) -> bool:
 
 def show(what: str, done: Run) -> None:
     """One line of the table."""
-    print(f"  {what:<44} {done.seconds:8.1f} s {done.rate:9.0f} cases/s {done.peak_mb:8.1f} MB")
+    print(f"  {what:<44} {done.seconds:8.1f} s {done.rate:7.0f} cases/s {done.program_mb:7.1f} MB {done.worker_mb:7.1f} MB")
 
 
 def show_memory(program: str, folder: Path, cases: int) -> None:
@@ -116,7 +137,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory(prefix="crashsim-bench-") as name:
         folder = Path(name)
         print(f"batch of {given.cases} simulations and {given.fits} identifications, {cores} cores")
-        print(f"  {'':<44} {'time':>10} {'rate':>17} {'largest process':>11}")
+        print(f"  {'':<44} {'time':>10} {'rate':>15} {'program':>10} {'worker':>10}")
         manifest = str(write_cases(folder / "cases", given.cases, given.fits))
         reference = folder / "one"
         show("1 process", run(given.program, "batch", manifest, "-o", str(reference), "--jobs", "1"))
@@ -127,8 +148,9 @@ def main() -> None:
             for i, shard in enumerate(shards, 1)
         ]
         seconds = sum(part.seconds for part in parts)
-        total = given.cases + given.fits
-        show(f"{given.shards} shards, one after the other", Run(seconds, total / seconds, max(p.peak_mb for p in parts), {}))
+        rate = (given.cases + given.fits) / seconds
+        joined = Run(seconds, rate, max(p.program_mb for p in parts), max(p.worker_mb for p in parts))
+        show(f"{given.shards} shards, one after the other", joined)
         show("their merge", run(given.program, "merge", *shards, "-o", str(folder / "merged")))
         show("--resume with nothing to do", run(given.program, "batch", manifest, "-o", str(folder / "all"), "--resume"))
         for other in ("all", "merged"):

@@ -76,8 +76,8 @@ void set(Case& study, const ConfigEntry& entry) {
 void check_speeds(const Case& study) {
   constexpr std::size_t kMostSpeeds = 1000;  // each keeps its motion in memory and writes a file
   if (study.what.speeds_mps.size() > kMostSpeeds)
-    throw InvalidInput(fmt::format("{}: [predict] speeds has {} speeds: at most {} fit in a case, use several", study.path,
-                                   study.what.speeds_mps.size(), kMostSpeeds));
+    throw InvalidInput(fmt::format("{}: [predict] speeds has {} speeds: at most {} fit in a case, use several",
+                                   study.path, study.what.speeds_mps.size(), kMostSpeeds));
   std::map<std::string, double> seen;
   for (std::size_t i = 0; i < study.what.speeds_mps.size(); ++i) {
     const double speed = study.what.speeds_mps[i];

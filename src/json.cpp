@@ -53,7 +53,8 @@ void check_depth(std::string_view text, const std::string& path) {
         if (text[i] == '\\') ++i;
     } else if (c == '[' || c == '{') {
       if (++depth > kDeepest)
-        throw InvalidInput(fmt::format("{}: is nested more than {} levels deep: no file of crashsim is", path, kDeepest));
+        throw InvalidInput(
+            fmt::format("{}: is nested more than {} levels deep: no file of crashsim is", path, kDeepest));
     } else if (c == ']' || c == '}') {
       --depth;
     }

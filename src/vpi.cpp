@@ -14,7 +14,7 @@ constexpr double kSlack_m = 0.03;
 constexpr double kStiffnessPerMass = 2500.0;  // 1/s^2
 constexpr double kOmega = 50.0;               // 1/s, its square root
 constexpr double kLongestStep_s = 0.005;      // a twelfth of the oscillation's half: at most one turn a step
-constexpr double kLongestPulse_s = 1e3;  // of a longer one nobody asks, and it would take without end
+constexpr double kLongestPulse_s = 1e3;       // of a longer one nobody asks, and it would take without end
 constexpr double kShortestStep_s = 1e-9;      // every step moves on, whatever rounding says about its end
 
 /// Unit mass relative to the vehicle: displacement beyond the slack, and speed.

@@ -27,6 +27,7 @@
 #include <crashsim/load_cell_wall.hpp>
 #include <crashsim/measured_motion.hpp>
 #include <crashsim/measured_vertical.hpp>
+#include <crashsim/messages.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/named_number.hpp>

@@ -48,15 +48,15 @@ void replace(const Folder& folder, const Folder& half_done, const std::string& n
 }  // namespace
 
 struct BatchFolder::Content {
-  Content(const std::string& path, const std::vector<BatchCase>& plan, const BatchOptions& options)
+  Content(const std::string& path, const std::vector<BatchCase>& plan, const BatchShard& shard, bool resume)
       : folder(open_or_make(path)),
         own(folder.inside(batch::kPrivate)),
         lock(own, path),
-        cases(batch::shard_of(plan, parse_shard(options.shard))),
+        cases(batch::shard_of(plan, shard)),
         offsets(cases.size(), kNoRow),
         journal(own, [this](std::uint64_t offset, std::string_view text) { find_case(offset, text); }) {
-    const BatchIdentity asked = batch::identify_batch(plan, parse_shard(options.shard));
-    if (const auto held = batch::find_batch(folder)) check(*held, asked.shard, options.resume);
+    const BatchIdentity asked = batch::identify_batch(plan, shard);
+    if (const auto held = batch::find_batch(folder)) check(*held, shard, resume);
     own.remove(batch::kHalfDone);
     half_done.emplace(own.inside(batch::kHalfDone));
     for (const char* table : {batch::kTableCsv, batch::kTableJson, batch::kTimings}) folder.remove(table);
@@ -102,7 +102,7 @@ struct BatchFolder::Content {
 };
 
 BatchFolder::BatchFolder(const std::string& path, const std::vector<BatchCase>& plan, const BatchOptions& options)
-    : content_(std::make_unique<Content>(path, plan, options)) {}
+    : content_(std::make_unique<Content>(path, plan, parse_shard(options.shard), options.resume)) {}
 
 BatchFolder::~BatchFolder() = default;
 

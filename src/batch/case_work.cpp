@@ -9,6 +9,7 @@
 #include <crashsim/batch.hpp>
 #include <crashsim/case.hpp>
 #include <crashsim/error.hpp>
+#include <crashsim/messages.hpp>
 #include <crashsim/outputs.hpp>
 
 #include "batch/case_folder.hpp"
@@ -62,10 +63,10 @@ void tell_results(const CaseResult& result, BatchRow& row) {
 }
 
 void fail(BatchRow& row, std::string_view outcome, int exit_code, std::string_view message) {
-  constexpr std::size_t kLongest = 1000;  // rows are small, whatever a file makes of its names
+  constexpr std::size_t kLongest = 1000;  // rows are small
   row.outcome = outcome;
   row.exit_code = exit_code;
-  row.message = message.substr(0, kLongest);
+  row.message = shortened(message, kLongest);
 }
 
 /// Runs a case. @returns its files; none when it failed, and the row says why.

@@ -47,7 +47,12 @@ class BackgroundBatch : public Background {
   }
 };
 
-bool is_running(::pid_t pid) { return ::kill(pid, 0) == 0; }
+/// Whether a process does anything still: not one that only waits to be asked how it ended.
+bool is_running(::pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  const std::string stat{std::istreambuf_iterator<char>(file), {}};
+  return !stat.empty() && stat.find(") Z ") == std::string::npos;
+}
 
 bool are_gone_soon(const std::vector<::pid_t>& pids) {
   const auto any_left = [&] { return std::any_of(pids.begin(), pids.end(), is_running); };

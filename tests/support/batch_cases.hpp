@@ -14,14 +14,14 @@
 
 namespace crashsim::test {
 
-/// Bytes of the files below a folder by their names; of a batch without what tells times.
+/// SHA-256 of the files below a folder by their names; of a batch without what tells times.
 inline std::map<std::string, std::string> files_in(const std::string& folder) {
   namespace fs = std::filesystem;
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
     if (entry.is_regular_file() && name != "timings.csv" && !name.starts_with(".batch/"))
-      files[name] = read_file(entry.path().string());
+      files[name] = sha256_of_file(entry.path().string());
   }
   return files;
 }

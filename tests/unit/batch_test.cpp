@@ -29,7 +29,8 @@ BatchRow some_row() {
   row.outcome = "completed";
   row.message = "line\nline";
   row.exit_code = 3;
-  row.values = {{"t_m_s", 0.1, ""}, {"whole", 2.0, ""}, {"count", std::int64_t{7}, ""}, {"is", true, ""}, {"who", "x", ""}};
+  row.values = {
+      {"t_m_s", 0.1, ""}, {"whole", 2.0, ""}, {"count", std::int64_t{7}, ""}, {"is", true, ""}, {"who", "x", ""}};
   row.parts = {{"pulse", {{"none", kUnset, ""}}}};
   row.identity = "abc";
   row.bytes = 12345678901;
@@ -100,7 +101,8 @@ TEST_F(BatchFolders, KeepRowsOfCasesThatAreRunAnywhere) {
 
 TEST_F(BatchFolders, BelongToOneAtATime) {
   const BatchFolder batch(folder, plan, {});
-  EXPECT_THAT([&] { const BatchFolder second(folder, plan, {}); }, ThrowsMessage<InvalidInput>(HasSubstr("is in use by")));
+  EXPECT_THAT([&] { const BatchFolder second(folder, plan, {}); },
+              ThrowsMessage<InvalidInput>(HasSubstr("is in use by")));
 }
 
 TEST_F(BatchFolders, StopAskingAWatcherThatSaysNo) {
@@ -115,16 +117,17 @@ TEST(Workers, DoEveryTaskOnceAndEndWithTheCaller) {
   std::vector<std::size_t> done;
   batch::WorkerLimits limits;
   limits.count = 3;
-  batch::run_on_workers(limits, {[](std::size_t task) { return std::string(10'000 * task, 'x'); },
-                                 [&]() -> std::optional<std::size_t> {
-                                   if (next == 20) return std::nullopt;
-                                   return next++;
-                                 },
-                                 [&](std::size_t task, const std::string& text) {
-                                   EXPECT_EQ(text.size(), 10'000 * task);
-                                   done.push_back(task);
-                                 },
-                                 [](std::size_t task, const batch::WorkerEnd&) { FAIL() << task; }, [] { return true; }});
+  batch::run_on_workers(limits,
+                        {[](std::size_t task) { return std::string(10'000 * task, 'x'); },
+                         [&]() -> std::optional<std::size_t> {
+                           if (next == 20) return std::nullopt;
+                           return next++;
+                         },
+                         [&](std::size_t task, const std::string& text) {
+                           EXPECT_EQ(text.size(), 10'000 * task);
+                           done.push_back(task);
+                         },
+                         [](std::size_t task, const batch::WorkerEnd&) { FAIL() << task; }, [] { return true; }});
   std::sort(done.begin(), done.end());
   ASSERT_THAT(done, SizeIs(20));
   EXPECT_EQ(done.back(), 19u);

@@ -27,6 +27,7 @@ const std::map<std::string, Layer> kLayers = {
     {"files", base},
     {"io/input_file", base},
     {"json", base},
+    {"messages", base},
     {"named_number", base},
     {"nearest", base},
     {"number", base},
