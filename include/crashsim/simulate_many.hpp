@@ -58,7 +58,8 @@ struct SimulateManyOptions {
   bool operator==(const SimulateManyOptions&) const = default;
 };
 inline constexpr std::array<Field<SimulateManyOptions>, 8> kSimulateManyFields = {{
-    {"end_time_s", "end", "s", "time to simulate to; default 0.2 s", &SimulateManyOptions::end_time_s, positive()},
+    {"end_time_s", "end", "s", "time to simulate to; default 0.2 s", &SimulateManyOptions::end_time_s,
+     positive_up_to(kLongestMotion_s)},
     {"dt_s", "dt", "s", "output interval", &SimulateManyOptions::dt_s, positive()},
     {"times_s", "times", "s", "output times instead of an interval", &SimulateManyOptions::times_s},
     {"rtol", "rtol", "", "relative accuracy", &SimulateManyOptions::rtol, between(1e-12, 1e-2)},
