@@ -81,7 +81,7 @@ class BatchFolders : public testing::Test {
 TEST_F(BatchFolders, KeepRowsOfCasesThatAreRunAnywhere) {
   {
     BatchFolder batch(folder, plan, {});
-    for (std::size_t i : {1, 0}) batch.record(i, run_batch_case(plan[i], folder));
+    for (const std::size_t i : {1U, 0U}) batch.record(i, run_batch_case(plan[i], folder));
     EXPECT_THROW(batch.record(0, some_row()), InvalidInput);
   }
   BatchOptions options;
