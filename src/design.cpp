@@ -15,6 +15,7 @@
 #include "optimize/design_problem.hpp"
 #include "optimize/starts.hpp"
 #include "parallel.hpp"
+#include "random.hpp"
 
 namespace crashsim {
 namespace {

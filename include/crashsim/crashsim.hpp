@@ -14,6 +14,7 @@
 #include <crashsim/design.hpp>
 #include <crashsim/design_case.hpp>
 #include <crashsim/design_options.hpp>
+#include <crashsim/distribution.hpp>
 #include <crashsim/error.hpp>
 #include <crashsim/export.hpp>
 #include <crashsim/files.hpp>
@@ -40,6 +41,8 @@
 #include <crashsim/rating.hpp>
 #include <crashsim/record.hpp>
 #include <crashsim/redundancy.hpp>
+#include <crashsim/sample_statistics.hpp>
+#include <crashsim/sampling.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "random.hpp"
+
 namespace crashsim {
 namespace {
 

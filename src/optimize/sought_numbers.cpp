@@ -1,5 +1,7 @@
 #include "optimize/sought_numbers.hpp"
 
+#include "random.hpp"
+
 namespace crashsim {
 namespace {
 

@@ -29,12 +29,6 @@ constexpr double kFtolSmooth = 1e-9;             // on losses that need no ladde
 constexpr int kMaxEvaluations = 2000;            // on a rung
 constexpr int kMaxNewtonEvaluations = 100;       // on a rung
 
-std::uint64_t mix(std::uint64_t z) {  // SplitMix64's output function
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
 struct Stopped {};  // thrown out of a start that is to end at once
 
 /// The descents of one start, which is as if never begun when `stop` is set meanwhile.
@@ -104,12 +98,6 @@ int best_of(const std::vector<StartResult>& results) {
 }
 
 }  // namespace
-
-double uniform_random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
-  constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ULL;
-  const std::uint64_t bits = mix(mix(mix(seed + kGolden) ^ (stream * kGolden + kGolden)) + index * kGolden);
-  return static_cast<double>(bits >> 11) * 0x1.0p-53;
-}
 
 std::vector<StartResult> run_starts(const StartPlan& plan, const Progress& progress) {
   const int threads = std::min(thread_count(plan.jobs), plan.starts);

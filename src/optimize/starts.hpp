@@ -1,7 +1,6 @@
 #pragma once
 /// Descents from many starting points.
 
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -77,8 +76,5 @@ int take_starts(const std::vector<StartResult>& results, double no_error, std::s
   }
   return summary.best;
 }
-
-/// Uniform number in [0, 1) that depends on (seed, stream, index) only.
-double uniform_random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
 
 }  // namespace crashsim
