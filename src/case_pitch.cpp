@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <crashsim/error.hpp>
+#include <crashsim/option_values.hpp>
 
 #include "case_sections.hpp"
 #include "case_traces.hpp"
@@ -102,6 +103,13 @@ std::vector<std::string> differences(const PitchResponse& phases, const CoupledR
   return lines;
 }
 
+bool has_ground_contact(const GroundContact& ground) {
+  const auto is_set = [&](const Field<GroundContact>& field) {
+    return get_option(ground, field) != get_option(GroundContact(), field);
+  };
+  return std::any_of(fields<GroundContact>.begin(), fields<GroundContact>.end(), is_set);
+}
+
 template <class Motion>
 TraceSet motion_set(const char* path, const Motion& motion) {
   return trace_set(path, {{"heave_m", Dimension::length, motion.time_s, motion.heave_m},
@@ -124,7 +132,7 @@ TraceSet measured_set(const MeasuredMotion& m) {
 void simulate_heave_and_pitch(const Case& study, double impact_speed_mps, CaseResult& out) {
   const PitchForcing forcing = find_forcing(study, out);
   out.pitch = simulate_pitch(vehicle_of(study, out), forcing, study.motion);
-  if (!study.what.coupled && study.ground != GroundContact())
+  if (!study.what.coupled && has_ground_contact(study.ground))
     out.notes.emplace_back("lift_off and bump stops act in the coupled model only: set [pitch] coupled");
   if (!study.what.coupled) return;
   out.coupled = run_coupled(study, impact_speed_mps, forcing, out);

@@ -281,6 +281,7 @@ TEST(RunCase, TheSimulatedCrushForcePitchesAVehicleThatSaysItsHeights) {
   ASSERT_TRUE(result.pitch.has_value());
   EXPECT_GT(result.pitch->pitch_max_rad, 0.0);
   EXPECT_FALSE(result.forcing.has_value());
+  EXPECT_THAT(result.notes, IsEmpty());
   EXPECT_THAT([&] { static_cast<void>(run_case(read_case(dir.file("b.toml", text)))); },
               testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("force_height_m is not set")));
 }
