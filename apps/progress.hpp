@@ -30,15 +30,20 @@ class ProgressLine {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-/// Runs `work(progress)` with a line that counts starts; the first Ctrl-C stops it and keeps what is finished.
+/// Runs `work(progress)` with a line that counts; the first Ctrl-C stops it and keeps what is finished.
 template <class Work>
-auto watch_starts(bool quiet, const Work& work) {
+auto watch(const char* counted, bool quiet, const Work& work) {
   const CooperativeInterrupt keep_what_is_finished;
-  ProgressLine line("starts", quiet);
+  ProgressLine line(counted, quiet);
   return work([&line](int done, int total) {
     line.show(static_cast<std::size_t>(done), static_cast<std::size_t>(total));
     return !interrupted();
   });
+}
+
+template <class Work>
+auto watch_starts(bool quiet, const Work& work) {
+  return watch("starts", quiet, work);
 }
 
 }  // namespace crashsim::cli

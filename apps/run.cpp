@@ -9,6 +9,7 @@
 #include "folder_command.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "sample_report.hpp"
 
 namespace crashsim::cli {
 namespace {
@@ -41,7 +42,8 @@ class RunCommand : public FolderCommand {
   explicit RunCommand(CLI::App& parent)
       : FolderCommand(
             parent, "run",
-            "Run a case: pulse, identification, simulation, heave and pitch, comparison; or an output's record again",
+            "Run a case: pulse, identification, simulation, heave and pitch, comparison, sweep; or an output's record "
+            "again",
             "crashsim run data/fe-car/case.toml -o fe-car") {
     app()
         .add_option("case", file_, "case.toml; or a case.lock.json or other output, to make it again")
@@ -97,8 +99,18 @@ class RunCommand : public FolderCommand {
     return run_program(line);
   }
 
+  /// The case itself, then its samples.
   CaseResult run_watched(const Case& study) const {
-    return watch_starts(quiet(), [&](const Progress& progress) { return run_case(study, progress); });
+    Case alone = study;
+    alone.sweep = {};
+    alone.monte_carlo = {};
+    CaseResult result = watch("starts", quiet(), [&](const Progress& progress) { return run_case(alone, progress); });
+    if (!has_samples(study) || interrupted() || result.response.outcome == CrushOutcome::not_run) return result;
+    const SamplePlan plan = plan_samples(study, result);
+    result.samples = watch("samples", quiet(), [&](const Progress& progress) {
+      return run_samples(plan, 0, plan.table.planned, progress);
+    });
+    return result;
   }
 
   void report(const Case& study, const CaseResult& result) const {
@@ -121,6 +133,8 @@ class RunCommand : public FolderCommand {
       say(fmt::format("model against test, {}", comparison.doc));
       for (const std::string& line : table_of(comparison.result)) say(line);
     }
+    if (result.samples)
+      for (const std::string& line : table_of(*result.samples)) say(line);
     if (!output().empty()) say(fmt::format("results in {}", output()));
   }
 

@@ -8,10 +8,12 @@
 
 #include <crashsim/error.hpp>
 #include <crashsim/model_io.hpp>
+#include <crashsim/sweep.hpp>
 #include <crashsim/units.hpp>
 
 #include "case_pitch.hpp"
 #include "case_sections.hpp"
+#include "case_steps.hpp"
 #include "case_traces.hpp"
 #include "stage_clock.hpp"
 
@@ -98,48 +100,63 @@ void use_model(const Case& study, const Unloading& unloading, CaseResult& out) {
   overrule(out.model.unloading, unloading);
 }
 
-void simulate_crush(const Case& study, double speed_mps, CaseResult& out) {
-  SimulateOptions options = at_speed(study, speed_mps);
-  if (std::isnan(options.end_time_s) && !options.to_max_crush && out.pulse)
-    options.end_time_s = out.pulse->time_s.back();
-  out.response = simulate(out.model, options);
-  for (const double predicted : study.what.speeds_mps)
-    out.predictions.push_back({prediction_name(predicted), simulate(out.model, at_speed(study, predicted))});
-}
-
 }  // namespace
 
 bool CaseResult::usable() const {
   const auto is_usable = [](const Prediction& prediction) { return prediction.response.usable(); };
   return (!identification || identification->usable()) && response.usable() && (!pitch || pitch->usable()) &&
-         (!coupled || coupled->usable()) && std::all_of(predictions.begin(), predictions.end(), is_usable);
+         (!coupled || coupled->usable()) && (!samples || samples->usable()) &&
+         std::all_of(predictions.begin(), predictions.end(), is_usable);
 }
 
-CaseResult run_case(const Case& study, const Progress& progress) {
-  CaseResult out;
+bool find_model(const Case& study, const Progress& progress, CaseResult& out) {
   StageClock clock;
   if (!study.what.pulse_file.empty())
     out.pulse = read_case_pulse(study, study.what.pulse_file, study.what.impact_speed_mps, out);
   const Unloading unloading = unloading_of(study, out);
   if (!study.what.model_file.empty()) use_model(study, unloading, out);
   out.stages.pulse_s = clock.lap();
-  if (study.what.model_file.empty()) {
-    const bool is_found = identify_model(study, progress, out);
-    out.stages.identify_s = clock.lap();
-    if (!is_found) return out;
-    out.model.extrapolation = study.what.extrapolation;
-    out.model.unloading = unloading;
-  }
+  if (!study.what.model_file.empty()) return true;
+  const bool is_found = identify_model(study, progress, out);
+  out.stages.identify_s = clock.lap();
+  if (!is_found) return false;
+  out.model.extrapolation = study.what.extrapolation;
+  out.model.unloading = unloading;
+  return true;
+}
 
-  double speed = study.what.impact_speed_mps;
-  if (std::isnan(speed) && out.pulse) speed = out.pulse->impact_speed_mps;
-  simulate_crush(study, speed, out);
+double speed_of(const Case& study, const CaseResult& out) {
+  const double speed = study.what.impact_speed_mps;
+  return std::isnan(speed) && out.pulse ? out.pulse->impact_speed_mps : speed;
+}
+
+void simulate_model(const Case& study, double impact_speed_mps, CaseResult& out) {
+  StageClock clock;
+  SimulateOptions options = at_speed(study, impact_speed_mps);
+  if (std::isnan(options.end_time_s) && !options.to_max_crush && out.pulse)
+    options.end_time_s = out.pulse->time_s.back();
+  out.response = simulate(out.model, options);
   out.stages.simulate_s = clock.lap();
-  if (out.response.usable() && has_pitch(study)) simulate_heave_and_pitch(study, speed, out);
+  if (out.response.usable() && has_pitch(study)) simulate_heave_and_pitch(study, impact_speed_mps, out);
   out.stages.pitch_s = clock.lap();
+}
+
+CaseResult run_case(const Case& study, const Progress& progress) {
+  CaseResult out;
+  if (!find_model(study, progress, out)) return out;
+  simulate_model(study, speed_of(study, out), out);
+  StageClock clock;
+  for (const double predicted : study.what.speeds_mps)
+    out.predictions.push_back({prediction_name(predicted), simulate(out.model, at_speed(study, predicted))});
+  out.stages.simulate_s += clock.lap();
   if (out.pulse && !out.response.time_s.empty()) compare_with_test(study, out);
   if (out.pitch && !study.measured.file.empty()) compare_heave_and_pitch(study, out);
   out.stages.compare_s = clock.lap();
+  const bool is_stopped = out.identification && out.identification->outcome == IdentifyOutcome::interrupted;
+  if (!has_samples(study) || is_stopped) return out;
+  const SamplePlan plan = plan_samples(study, out);
+  out.samples = run_samples(plan, 0, plan.table.planned, progress);
+  out.stages.samples_s = clock.lap();
   return out;
 }
 

@@ -15,25 +15,20 @@
 
 #include "case_sections.hpp"
 #include "nearest.hpp"
+#include "sweep_keys.hpp"
 
 namespace crashsim {
 namespace {
 
-struct Place {
-  std::string section, key;
-};
-
-/// Where a field stands and what it is called there: its flag with '_', a list by its name ("channels"). The flag of a
-/// field of CaseOptions holds both: "pulse.file".
-template <class S>
-Place place_of(std::string_view section, const Field<S>& field) {
-  const bool is_list = std::holds_alternative<std::vector<std::string> S::*>(field.member);
-  std::string key(is_list && !section.empty() ? field.name : field.flag);
-  std::replace(key.begin(), key.end(), '-', '_');
-  const std::size_t dot = key.find('.');
-  if (!section.empty() || dot == std::string::npos) return {std::string(section), key};
-  return {key.substr(0, dot), key.substr(dot + 1)};
-}
+/// What stands in [sweep] and [monte_carlo] beside options: numbers of other sections by their keys.
+constexpr std::string_view kAnyNumber = "<section>.<key>";
+constexpr const char* kSweepDoc =
+    "values of any number of the sections above, or of the model's ordinates crush.k1, .. and crush.c1, ..: "
+    "[\"40 km/h\", \"48 km/h\"], \"1 t..1.4 t:5\", or factors {values = [0.9, 1.1], relative = true}";
+constexpr const char* kMonteCarloDoc =
+    "distribution of such a number: {normal = [mean, deviation], lower = .., upper = ..}, {lognormal = [mean, "
+    "deviation]}, {uniform = [least, largest]}, {triangular = [least, likely, largest]}, {table = [..], weights = "
+    "[..]}; of a factor with relative = true";
 
 [[noreturn]] void refuse_key(const ConfigEntry& entry, const std::vector<FileKey>& keys) {
   std::vector<std::string_view> sections, here;
@@ -47,22 +42,13 @@ Place place_of(std::string_view section, const Field<S>& field) {
   detail::throw_unknown_name(what, entry.key, here);
 }
 
-/// The key of an option; `force = {file = ..}` in [pitch] and `motion = {file = ..}` in [compare] are tables.
-std::string_view option_key(const ConfigEntry& entry) {
-  const std::string_view key = entry.key;
-  for (const auto& [section, table] :
-       {std::pair("pitch", std::string_view("force.")), std::pair("compare", std::string_view("motion."))})
-    if (entry.section == section && key.starts_with(table)) return key.substr(table.size());
-  return key;
-}
-
 void set(Case& study, const ConfigEntry& entry) {
   bool known = false;
   for_each_key(study, [&](std::string_view section, const auto& field, auto& options) {
     const Place place = place_of(section, field);
     using Options = std::remove_cvref_t<decltype(options)>;
     constexpr bool has_table = std::is_same_v<Options, ForcingOptions> || std::is_same_v<Options, MotionOptions>;
-    const std::string_view key = option_key(entry);
+    const std::string_view key = option_key(entry.section, entry.key);
     if (key != entry.key && !has_table) return;  // a key of `force = {..}`
     const bool is_named = section.empty() ? entry.key == place.key : is_key_of(key, field);
     if (known || place.section != entry.section || !is_named) return;
@@ -70,7 +56,11 @@ void set(Case& study, const ConfigEntry& entry) {
     set_option(options, field, entry.value, fmt::format("{}: {}{}", entry.where, path, entry.key));
     known = true;
   });
-  if (!known) refuse_key(entry, case_keys());
+  if (known) return;
+  if (entry.section == "sweep") return add_variation(entry, study.sweep.vary, {});
+  if (entry.section == "monte_carlo")
+    return add_variation(entry, study.monte_carlo.vary, {"samples", "seed", "method"});
+  refuse_key(entry, case_keys());
 }
 
 void check_speeds(const Case& study) {
@@ -129,6 +119,7 @@ void check(const Case& study) {
   check_speeds(study);
   check_pitch(study);
   check_unloading(study);
+  check_variations(study);
   if (study.what.pulse_file.empty() && study.what.model_file.empty())
     throw InvalidInput(
         fmt::format("{}: has neither [pulse] file nor [crush] model: name a trace to identify a model from, or a model "
@@ -172,10 +163,12 @@ std::vector<FileKey> case_keys() {
     const Place place = place_of(section, field);
     keys.push_back({place.section, place.key, describe_field(field, options)});
   });
+  keys.push_back({"sweep", std::string(kAnyNumber), {"", kSweepDoc, "", "", ""}});
+  keys.push_back({"monte_carlo", std::string(kAnyNumber), {"", kMonteCarloDoc, "", "", ""}});
   std::stable_sort(keys.begin(), keys.end(), [](const FileKey& a, const FileKey& b) {
     const auto rank = [](const std::string& name) {
-      constexpr std::string_view kOrder[] = {"",         "vehicle", "impact",  "pulse",   "crush", "identify",
-                                             "simulate", "pitch",   "compare", "predict", "design"};
+      constexpr std::string_view kOrder[] = {"",      "vehicle", "impact",  "pulse",  "crush", "identify",   "simulate",
+                                             "pitch", "compare", "predict", "design", "sweep", "monte_carlo"};
       return std::find(std::begin(kOrder), std::end(kOrder), name) - std::begin(kOrder);
     };
     return rank(a.section) < rank(b.section);
@@ -208,6 +201,8 @@ std::vector<ConfigEntry> entries_of(const Case& study) {
     const Place place = place_of(section, field);
     entries.push_back({place.section, place.key, get_option(options, field), ""});
   });
+  for (const auto& varied : {entries_of(study.sweep.vary, "sweep"), entries_of(study.monte_carlo.vary, "monte_carlo")})
+    entries.insert(entries.end(), varied.begin(), varied.end());
   return entries;
 }
 

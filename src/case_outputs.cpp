@@ -5,8 +5,10 @@
 #include <crashsim/case.hpp>
 #include <crashsim/model_io.hpp>
 #include <crashsim/outputs.hpp>
+#include <crashsim/sweep.hpp>
 
 #include "case_sections.hpp"
+#include "case_steps.hpp"
 
 namespace crashsim {
 namespace {
@@ -31,17 +33,22 @@ Summary ratings_of(const Comparison& comparison) {
 
 }  // namespace
 
+std::string outcome_of(const CaseResult& out) {
+  const bool has_motion = out.response.outcome != CrushOutcome::not_run;
+  if (!has_motion && out.identification) return std::string(name_of(out.identification->outcome));
+  if (!out.response.usable()) return std::string(name_of(out.response.outcome));
+  if (out.pitch && !out.pitch->usable()) return std::string(name_of(out.pitch->outcome));
+  if (out.coupled) return std::string(name_of(out.coupled->outcome));
+  return std::string(name_of(out.response.outcome));
+}
+
 Summary summarize(const CaseResult& result) {
-  if (result.response.outcome == CrushOutcome::not_run)
-    return {{"outcome", std::string(name_of(result.identification->outcome)), "outcome"}};
+  if (result.response.outcome == CrushOutcome::not_run) return {{"outcome", outcome_of(result), "outcome"}};
   Summary summary = summarize(result.response, result.model.mass_kg);
   auto& outcome = std::get<std::string>(summary.front().value);
-  const auto fail = [&](const auto& part) {  // the first that failed is the outcome of all
-    if (outcome == name_of(CrushOutcome::completed) && !part.usable()) outcome = name_of(part.outcome);
-  };
-  if (result.pitch) fail(*result.pitch);
-  if (result.coupled) fail(*result.coupled);
-  for (const Prediction& prediction : result.predictions) fail(prediction.response);
+  outcome = outcome_of(result);
+  for (const Prediction& prediction : result.predictions)  // the first that failed is the outcome of all
+    if (outcome == name_of(CrushOutcome::completed)) outcome = name_of(prediction.response.outcome);
   if (!result.pitch) return summary;
   const Summary pitch = summarize(*result.pitch);
   summary.insert(summary.end(), pitch.begin() + 1, pitch.end());
@@ -72,6 +79,7 @@ std::vector<std::string> case_file_names(const Case& study) {
   if (has_pitch(study) && study.what.coupled) names.emplace_back(kCoupled);
   for (const double speed : study.what.speeds_mps) names.push_back(prediction_file(speed));
   if (!study.what.pulse_file.empty() || !study.measured.file.empty()) names.emplace_back(kComparison);
+  if (has_samples(study)) names.insert(names.end(), {std::string(kSamples), std::string(kSampleSummary)});
   names.insert(names.end(), {std::string(kCaseSummary), kRecord});
   return names;
 }
@@ -91,6 +99,11 @@ std::vector<FileText> case_files(const Case& study, const CaseResult& result) {
     files.push_back({prediction_file(study.what.speeds_mps[i]),
                      format_response(result.predictions[i].response, result.model.mass_kg, record)});
   if (!result.comparisons.empty()) files.push_back({kComparison, format_comparisons(result.comparisons, record)});
+  if (result.samples) {
+    files.push_back({std::string(kSamples), format_samples(*result.samples, record)});
+    files.push_back({std::string(kSampleSummary),
+                     format_sample_summary(*result.samples, summarize_samples(*result.samples), record)});
+  }
   files.push_back({std::string(kCaseSummary), format_summary(summarize(result), summary_parts(result))});
   files.push_back({kRecord, format_record(record)});
   return files;

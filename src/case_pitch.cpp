@@ -43,7 +43,7 @@ PitchForcing find_forcing(const Case& study, CaseResult& out) {
     ForcingOptions options = study.forcing;
     options.file = resolved(study, study.forcing.file);
     set_time_zero(study, options.file, out, options.time_zero_s);
-    out.forcing = read_forcing(options);
+    if (!out.forcing) out.forcing = read_forcing(options);  // samples bring it along
     append(out.forcing->input_files, out.input_files);
     forcing = out.forcing->forcing;
     const HeavePitchModel& vehicle = study.vehicle;

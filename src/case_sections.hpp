@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <crashsim/case.hpp>
@@ -54,7 +56,33 @@ inline auto case_sections() {
                     CaseSection<GroundContact>{"vehicle", &Case::ground, {}, {}},
                     CaseSection<MotionOptions>{"compare", &Case::measured, {}, {}},
                     CaseSection<CompareOptions>{"compare", &Case::comparison, {}, {}},
-                    CaseSection<DesignOptions>{"design", &Case::design, {}, {}});
+                    CaseSection<DesignOptions>{"design", &Case::design, {}, {}},
+                    CaseSection<MonteCarloOptions>{"monte_carlo", &Case::monte_carlo, {}, {}});
+}
+
+/// Where an option stands in a case file.
+struct Place {
+  std::string section, key;
+};
+
+/// Where a field stands and what it is called there: its flag with '_', a list by its name ("channels"). The flag of a
+/// field of CaseOptions holds both: "pulse.file".
+template <class S>
+Place place_of(std::string_view section, const Field<S>& field) {
+  const bool is_list = std::holds_alternative<std::vector<std::string> S::*>(field.member);
+  std::string key(is_list && !section.empty() ? field.name : field.flag);
+  std::replace(key.begin(), key.end(), '-', '_');
+  const std::size_t dot = key.find('.');
+  if (!section.empty() || dot == std::string::npos) return {std::string(section), key};
+  return {key.substr(0, dot), key.substr(dot + 1)};
+}
+
+/// The key of an option; `force = {file = ..}` in [pitch] and `motion = {file = ..}` in [compare] are tables.
+inline std::string_view option_key(std::string_view section_of_key, std::string_view key) {
+  for (const auto& [section, table] :
+       {std::pair("pitch", std::string_view("force.")), std::pair("compare", std::string_view("motion."))})
+    if (section_of_key == section && key.starts_with(table)) return key.substr(table.size());
+  return key;
 }
 
 /// Calls visit(section name, field, options of that section) for every key; the fields of CaseOptions name their own

@@ -11,8 +11,12 @@ double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// Whether values vary by more than integration errors do.
 bool varies(std::span<const double> values) {
-  return std::any_of(values.begin(), values.end(), [&](double value) { return value != values.front(); });
+  constexpr double kNoise = 1e-7;
+  if (values.empty()) return false;
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  return *largest - *least > kNoise * std::max(std::fabs(*least), std::fabs(*largest));
 }
 
 /// Quantile of ordered values, linear between them.

@@ -19,11 +19,13 @@
 #include <crashsim/option_docs.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
+#include <crashsim/sample_table.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
 #include <crashsim/stage_times.hpp>
 #include <crashsim/summary.hpp>
+#include <crashsim/sweep_options.hpp>
 #include <crashsim/vertical_force.hpp>
 
 namespace crashsim {
@@ -77,17 +79,19 @@ inline constexpr std::span<const Field<CaseOptions>> fields<CaseOptions>{kCaseFi
 struct Case {
   std::string path;  ///< As given.
   CaseOptions what;
-  PulseOptions pulse;          ///< [pulse]
-  IdentifyOptions identify;    ///< [identify]; law and knots stand in [crush]
-  SimulateOptions simulation;  ///< [simulate]
-  HeavePitchModel vehicle;     ///< [vehicle], its formulation in [pitch]; the mass is that of the crush.
-  ForcingOptions forcing;      ///< [pitch] force = {file, channel, ..}; without a file: the simulated crush force.
-  PitchOptions motion;         ///< [pitch]
-  VerticalForceLaw vertical;   ///< [pitch] angle, friction, ..: vertical force of the simulated crush.
-  GroundContact ground;        ///< [vehicle], of the coupled model.
-  MotionOptions measured;      ///< [compare] motion = {file, front, rear, ..}: measured heave and pitch.
-  CompareOptions comparison;   ///< [compare]
-  DesignOptions design;        ///< [design]
+  PulseOptions pulse;             ///< [pulse]
+  IdentifyOptions identify;       ///< [identify]; law and knots stand in [crush]
+  SimulateOptions simulation;     ///< [simulate]
+  HeavePitchModel vehicle;        ///< [vehicle], its formulation in [pitch]; the mass is that of the crush.
+  ForcingOptions forcing;         ///< [pitch] force = {file, channel, ..}; without a file: the simulated crush force.
+  PitchOptions motion;            ///< [pitch]
+  VerticalForceLaw vertical;      ///< [pitch] angle, friction, ..: vertical force of the simulated crush.
+  GroundContact ground;           ///< [vehicle], of the coupled model.
+  MotionOptions measured;         ///< [compare] motion = {file, front, rear, ..}: measured heave and pitch.
+  CompareOptions comparison;      ///< [compare]
+  DesignOptions design;           ///< [design]
+  SweepOptions sweep;             ///< [sweep]; not together with
+  MonteCarloOptions monte_carlo;  ///< [monte_carlo]
 };
 
 /// Every key of a case file, section by section.
@@ -100,9 +104,8 @@ Case read_case(const std::string& path);
 /// The case as entries of a record: every option, set or default.
 std::vector<ConfigEntry> entries_of(const Case& study);
 
-/// Simulation at another speed.
 struct Prediction {
-  std::string name;  ///< "40kmh"
+  std::string name;  ///< Simulation at another speed: "40kmh".
   CrushResponse response;
 };
 
@@ -117,6 +120,7 @@ struct CaseResult {
   std::optional<CoupledResponse> coupled;
   std::vector<Prediction> predictions;
   std::vector<NamedComparison> comparisons;  ///< "to_max_crush", "whole_record", "heave_and_pitch", ..
+  std::optional<SampleTable> samples;        ///< Of [sweep] or [monte_carlo].
   std::vector<std::string> input_files;
   std::vector<std::string> notes;  ///< What the case did not say and was taken from elsewhere.
   StageTimes stages;               ///< Of run_case(): neither reading the case nor writing.
@@ -133,9 +137,7 @@ CaseResult run_case(const Case& study, const Progress& progress = {});
 Summary summarize(const CaseResult& result);
 std::vector<std::pair<std::string, Summary>> summary_parts(const CaseResult& result);
 
-/// Name of the file that holds the summary.
-inline constexpr std::string_view kCaseSummary = "summary.json";
-
+inline constexpr std::string_view kCaseSummary = "summary.json";  ///< The file that holds the summary.
 /// The files that a case names, and its own: what it reads.
 std::vector<std::string> case_inputs(const Case& study);
 
@@ -143,7 +145,7 @@ std::vector<std::string> case_inputs(const Case& study);
 std::vector<std::string> case_file_names(const Case& study);
 
 /// The files of a case directory: pulse.csv, model.json, response.csv, pitch.csv, coupled.csv, prediction_*.csv,
-/// comparison.json, summary.json and, last, case.lock.json, the record.
+/// comparison.json, samples.csv, sweep.json, summary.json and, last, case.lock.json, the record.
 std::vector<FileText> case_files(const Case& study, const CaseResult& result);
 
 }  // namespace crashsim

@@ -42,6 +42,7 @@
 #include <crashsim/record.hpp>
 #include <crashsim/redundancy.hpp>
 #include <crashsim/sample_statistics.hpp>
+#include <crashsim/sample_table.hpp>
 #include <crashsim/sampling.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/simulate.hpp>
@@ -51,6 +52,8 @@
 #include <crashsim/solver_statistics.hpp>
 #include <crashsim/stage_times.hpp>
 #include <crashsim/summary.hpp>
+#include <crashsim/sweep.hpp>
+#include <crashsim/sweep_options.hpp>
 #include <crashsim/table_io.hpp>
 #include <crashsim/time_series.hpp>
 #include <crashsim/trace.hpp>

@@ -1,5 +1,6 @@
 #pragma once
-/// What many samples of a model say: spread, correlations, and Sobol' indices, the parts of an output's variance.
+/// What many samples of a model say: spread, correlations, and Sobol' indices, the parts of an output's variance. What
+/// varies by less than 1e-7 of itself, as numbers do by errors of integration, counts as the same.
 
 #include <cstddef>
 #include <span>

@@ -9,6 +9,8 @@
 
 #include <crashsim/option_values.hpp>
 
+#include "number_list.hpp"
+
 namespace crashsim {
 namespace {
 
@@ -99,25 +101,6 @@ double bound(const std::vector<std::string>& bounds, std::string_view name, std:
   return value;
 }
 
-/// A limit of the trade-off curve, or the limits of a range "0.5 m..0.7 m:5".
-void append_limits(const std::string& text, std::string_view unit, const std::string& what,
-                   std::vector<double>& limits) {
-  const std::size_t dots = text.find(".."), colon = text.rfind(':');
-  if (dots == std::string::npos) {
-    limits.push_back(detail::to_number(text, unit, what));
-    return;
-  }
-  constexpr double kMost = 1000;
-  if (colon == std::string::npos || colon < dots)
-    throw InvalidInput(fmt::format("{} = '{}': a range needs a count: \"0.5..0.7:5\"", what, text));
-  const double first = detail::to_number(text.substr(0, dots), unit, what);
-  const double last = detail::to_number(text.substr(dots + 2, colon - dots - 2), unit, what);
-  const auto count = static_cast<double>(detail::to_integer(text.substr(colon + 1), what + " count"));
-  if (!detail::in_range(count, between(2, kMost)))
-    detail::throw_out_of_range(what + " count", count, "", between(2, kMost));
-  for (int i = 0; i < static_cast<int>(count); ++i) limits.push_back(first + (last - first) * i / (count - 1.0));
-}
-
 }  // namespace
 
 double quantity_of(const DesignResponses& responses, DesignQuantity quantity) {
@@ -196,10 +179,8 @@ std::vector<double> trade_off_limits(const DesignOptions& options) {
         fmt::format("DesignOptions.trade_off = {}: minimise is {}: the curve needs something else to "
                     "minimise",
                     traded, name_of(options.minimise)));
-  std::vector<double> limits;
-  for (std::size_t i = 0; i < options.trade_off_limits.size(); ++i)
-    append_limits(options.trade_off_limits[i], unit_of(options.trade_off),
-                  fmt::format("DesignOptions.trade_off_limits[{}]", i), limits);
+  std::vector<double> limits =
+      listed_numbers(options.trade_off_limits, unit_of(options.trade_off), "DesignOptions.trade_off_limits");
   if (limits.empty())
     throw InvalidInput(fmt::format("DesignOptions.trade_off = {}: give its trade_off_limits", traded));
   for (const double limit : limits)

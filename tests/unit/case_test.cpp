@@ -98,7 +98,8 @@ std::string vehicle_without(const std::string& key) {
 TEST(Case, EveryKeyCanBeSetAndIsRecorded) {
   const test::TempDir dir;
   const std::vector<ConfigEntry> defaults = entries_of(Case());
-  const std::vector<FileKey> keys = case_keys();
+  std::vector<FileKey> keys = case_keys();
+  std::erase_if(keys, [](const FileKey& key) { return key.key == "<section>.<key>"; });  // of sweep_test.cpp
   EXPECT_EQ(keys.size(), defaults.size());
   for (const FileKey& key : keys) {
     const auto [text, value] = other_value(entry_of(defaults, key), key.about);

@@ -72,7 +72,7 @@ TEST(SobolIndices, OfIshigamisFunctionAreTheAnalyticOnes) {
   std::vector<double> outputs;
   for (std::uint64_t i = 0; i < point_count(design); ++i) outputs.push_back(ishigami(sample_point(design, i)));
   const std::vector<SobolIndices> indices = sobol_indices(outputs, 3);
-  constexpr double kSampling = 0.004;  // of Sobol's sequence, measured 0.001; independent points have 0.02
+  constexpr double kSampling = 0.004;  // of Sobol's sequence, measured 0.002; independent points have 0.02
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(indices[i].first_order.value, kFirst[i], kSampling) << i;
     EXPECT_NEAR(indices[i].total.value, kTotal[i], kSampling) << i;
