@@ -42,10 +42,10 @@ std::vector<std::string> table_of(const SampleTable& table) {
       const double value = measure(output.effects[i]);
       if (!(std::fabs(value) > std::fabs(largest))) continue;
       largest = value;
-      driver = fmt::format("{} ({:.2f})", table.inputs[i].name, value);
+      driver = fmt::format("  {} ({:.2f})", table.inputs[i].name, value);
     }
-    lines.push_back(fmt::format("  {:<26} {:>11} {:>11} {:>11} {:>11} {:>11}  {}", output.name, cell(s.mean),
-                                cell(s.sd), cell(s.q05), cell(s.q50), cell(s.q95), driver));
+    lines.push_back(fmt::format("  {:<26} {:>11} {:>11} {:>11} {:>11} {:>11}{}", output.name, cell(s.mean), cell(s.sd),
+                                cell(s.q05), cell(s.q50), cell(s.q95), driver));
   }
   return lines;
 }

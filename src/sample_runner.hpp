@@ -30,6 +30,9 @@ double plan_speed(const SamplePlan& plan);
 /// The model of the case with a sample's numbers and speed.
 CrushModel sample_model(const SamplePlan& plan, std::span<const double> inputs);
 
+/// Header row of samples.csv.
+std::string sample_header(const SampleTable& table);
+
 /// One sample's way through the case. @throws InvalidInput when a number is none that the case can have.
 /// @param stop ends an identification.
 CaseResult run_sample(const SamplePlan& plan, std::span<const double> inputs, const std::atomic<bool>& stop);

@@ -10,6 +10,7 @@
 
 #include "json.hpp"
 #include "record_json.hpp"
+#include "sample_runner.hpp"
 
 namespace crashsim {
 namespace {
@@ -71,14 +72,18 @@ Json sobol_json(const SampleTable& table, const SampleSummary& summary) {
 
 }  // namespace
 
+std::string sample_header(const SampleTable& table) {
+  std::string header = "sample";
+  for (const SampleInput& input : table.inputs) header += "," + input.name;
+  header += ",outcome";
+  for (const std::string& name : table.outputs) header += "," + name;
+  return header;
+}
+
 std::string format_samples(const SampleTable& table, const Record& record) {
   const auto cell = [](double value) { return std::isnan(value) ? std::string() : format_number(value); };
-  std::string text = fmt::format("# crashsim = {}\n# method = {}\n# planned = {}\n# record = {}\nsample",
-                                 record.version, method_of(table), table.planned, to_json(record));
-  for (const SampleInput& input : table.inputs) text += "," + input.name;
-  text += ",outcome";
-  for (const std::string& name : table.outputs) text += "," + name;
-  text += '\n';
+  std::string text = fmt::format("# crashsim = {}\n# method = {}\n# planned = {}\n# record = {}\n{}\n", record.version,
+                                 method_of(table), table.planned, to_json(record), sample_header(table));
   for (std::size_t row = 0; row < table.rows(); ++row) {
     text += std::to_string(table.samples[row]);
     for (std::size_t column = 0; column < table.columns(); ++column) {

@@ -44,6 +44,11 @@ inline constexpr std::string_view kSampleSummary = "sweep.json";
 /// samples.csv: `sample`, the inputs, `outcome`, the outputs; one row a sample.
 std::string format_samples(const SampleTable& table, const Record& record);
 
+/// Reads samples.csv, of all samples or some of them, as rows of a study: for join_samples(). Numbers come back
+/// exactly.
+/// @param study the table of the plan. @throws InvalidInput with path and line when it is no such file.
+SampleTable read_samples(const std::string& path, const SampleTable& study);
+
 /// sweep.json: outcomes, statistics, correlations and Sobol' indices.
 std::string format_sample_summary(const SampleTable& table, const SampleSummary& summary, const Record& record);
 

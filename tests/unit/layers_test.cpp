@@ -132,6 +132,7 @@ const std::map<std::string, Layer> kLayers = {
     {"model_io", pipeline},
     {"outputs", pipeline},
     {"stage_times", pipeline},
+    {"read_samples", pipeline},
     {"run_samples", pipeline},
     {"sample_runner", pipeline},
     {"sample_table", pipeline},

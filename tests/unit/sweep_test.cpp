@@ -186,8 +186,9 @@ TEST_F(Sweep, DoesNotDependOnJobsOrParts) {
     study.identify.jobs = 3;
     const SamplePlan plan = plan_samples(study, result);
     EXPECT_EQ(format_samples(run_samples(plan, 0, plan.table.planned), record), whole);
-    const std::vector<SampleTable> parts = {run_samples(plan, 13, 1000), run_samples(plan, 0, 5),
-                                            run_samples(plan, 5, 8)};
+    std::vector<SampleTable> parts = {run_samples(plan, 13, 1000), run_samples(plan, 0, 5), run_samples(plan, 5, 8)};
+    for (SampleTable& part : parts)  // by way of files, as from several machines
+      part = read_samples(dir.file("part.csv", format_samples(part, record)), plan.table);
     EXPECT_EQ(format_samples(join_samples(parts), record), whole);
     EXPECT_THAT(
         [&] {
@@ -196,6 +197,21 @@ TEST_F(Sweep, DoesNotDependOnJobsOrParts) {
         ThrowsMessage<InvalidInput>(HasSubstr("parts of samples overlap: sample 0 follows sample 4")));
     EXPECT_THAT(run_samples(plan, plan.table.planned, 5).samples, IsEmpty());
   }
+}
+
+TEST_F(Sweep, OnlySamplesOfTheStudyAreReadAgain) {
+  const SampleTable table = run(crush_case("[sweep]\nmass = [1000, 1200]\n"));
+  const std::string text = format_samples(table, {});
+  const auto refused = [&](std::string from, const std::string& to, const char* message) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    const std::string path = dir.file("samples.csv", changed);
+    EXPECT_THAT([&] { read_samples(path, table); }, ThrowsMessage<InvalidInput>(HasSubstr(message)));
+  };
+  refused("vehicle.mass_kg", "mass", "samples.csv:5: has other columns than the samples of this study");
+  refused("\n1,1200,", "\n2,1200,", "samples.csv:7: '2' is no sample of 2");
+  refused("\n1,1200,", "\n1,heavy,", "samples.csv:7: 'heavy' is not a number");
+  refused("\n1,1200,", "\n1,", "samples.csv:7: has 20 cells, there are 21 columns");
 }
 
 TEST_F(Sweep, AFailedSampleIsARowWithItsOutcome) {
