@@ -25,10 +25,12 @@ Event first_crush_event(const CoupledProblem& problem, const CoupledMode& mode, 
   for (const double turn :
        SignChanges(derivative_of(part.v, step.degree), std::max(step.degree - 1, 0), step.from, step.to)) {
     part.to = turn;
+    part.set_ends();
     if (const Event event = first_event(crush, mode.crush, part); event.kind != EventKind::none) return event;
     part.from = turn;
   }
   part.to = step.to;
+  part.set_ends();
   return first_event(crush, mode.crush, part);
 }
 

@@ -28,11 +28,12 @@ struct SignChange {
   double tau;
   bool pulls_at_once;  ///< Negative from the start.
 };
-SignChange sign_change(const RegionForce& force, double mass_kg, const StepPolynomial& step, double margin) {
+SignChange sign_change(const RegionForce& force, const StepPolynomial& step, double margin) {
   const auto at = [&](const CrushState& y) { return contact_force(force, y.x, y.v, margin); };
   const auto exactly = [&](const CrushState& y) { return value(force.spring, y.x) + value(force.damper, y.v); };
-  const auto slope = [&](const CrushState& y) {
-    return derivative(force.spring, y.x) * y.v - derivative(force.damper, y.v) * exactly(y) / mass_kg;
+  const auto slope = [&](double tau, const CrushState& y) {
+    return derivative(force.spring, y.x) * y.v +
+           derivative(force.damper, y.v) * horner_derivative(step.v, step.degree, tau);
   };
   double start = step.from;
   CrushState from = step.start;
@@ -48,21 +49,21 @@ SignChange sign_change(const RegionForce& force, double mass_kg, const StepPolyn
   const double last = at(step.end);
   if (sign * last >= 0.0) {
     // An excursion inside the step shows as a minimum of the signed force, which the tangents at the ends bound.
-    const double fall = sign * slope(from), rise = sign * slope(step.end);
+    const double fall = sign * slope(start, from), rise = sign * slope(end, step.end);
     if (!(fall < 0.0 && rise > 0.0)) return {step.to, sign < 0.0};
     if (sign * first + fall * (end - start) > 0.0 || sign * last - rise * (end - start) > 0.0)
       return {step.to, sign < 0.0};
     double low = start, high = end;
     for (int i = 0; i < 40; ++i) {
       const double middle = 0.5 * (low + high);
-      (sign * slope(step.state_at(middle)) < 0.0 ? low : high) = middle;
+      (sign * slope(middle, step.state_at(middle)) < 0.0 ? low : high) = middle;
     }
     end = low;
     if (sign * at(step.state_at(end)) >= 0.0) return {step.to, sign < 0.0};
   }
   const auto f = [&](double tau) {
     const CrushState y = step.state_at(tau);
-    return ValueAndDerivative{exactly(y), slope(y)};
+    return ValueAndDerivative{exactly(y), slope(tau, y)};
   };
   return {bracketed_root(f, start, end), sign < 0.0};
 }
@@ -107,7 +108,7 @@ Event first_event(const CrushProblem& problem, const Region& region, const StepP
   const double margin = state_rounding(problem.speed_mps);
   const bool bilateral = problem.unloading.bilateral;
   if (region.unloading && bilateral) return event;  // one line to the end
-  const SignChange change = sign_change(region_force(problem, region), problem.mass_kg, step, margin);
+  const SignChange change = sign_change(region_force(problem, region), step, margin);
   if (!bilateral && change.pulls_at_once)
     event = {EventKind::separation, step.from, 0, 0.0};
   else if (change.tau < step.to)

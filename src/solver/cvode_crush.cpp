@@ -41,8 +41,7 @@ const StepPolynomial& CvodeStepper::advance(double end_time_s) {
     step_.v[i] = d[1] / factorial;
     step_.dissipated[i] = d[2] / factorial;
   }
-  step_.start = {step_.x_at(step_.from), step_.v_at(step_.from)};
-  step_.end = {step_.x[0], step_.v[0]};
+  step_.set_ends();
   return step_;
 }
 

@@ -99,8 +99,7 @@ StepPolynomial LaneMotions::polynomial(std::size_t lane) const {
     step.x[n] = block_.x[n][lane];
     step.v[n] = block_.v[n][lane];
   }
-  step.start = {step.x[0], step.v[0]};
-  step.end = {step.x_at(step.to), step.v_at(step.to)};
+  step.set_ends();
   return step;
 }
 

@@ -39,6 +39,11 @@ struct StepPolynomial {
   [[nodiscard]] double v_at(double tau) const { return horner(v, degree, tau); }
   [[nodiscard]] CrushState state_at(double tau) const { return tau == to ? end : CrushState{x_at(tau), v_at(tau)}; }
   [[nodiscard]] double dissipated_at(double tau) const { return horner(dissipated, degree, tau); }
+  /// Sets the states at both ends to what the polynomials give.
+  void set_ends() {
+    start = {x_at(from), v_at(from)};
+    end = {x_at(to), v_at(to)};
+  }
 };
 
 /// Root in [low, high] of a function that changes sign once there: Newton's method, with bisection where it would leave
