@@ -33,7 +33,7 @@ std::string_view sound_text(std::string_view line) {
 /// Reads lines of a descriptor, with memory for one.
 class Lines {
  public:
-  explicit Lines(int fd) : file_(::fdopen(::dup(fd), "rb")) { std::rewind(file_); }
+  explicit Lines(int fd) : file_(::fdopen(::dup(fd), "rb")) {}
   ~Lines() {
     std::fclose(file_);
     std::free(line_);  // NOLINT(cppcoreguidelines-no-malloc): getline's own

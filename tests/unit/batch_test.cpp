@@ -96,7 +96,7 @@ TEST_F(BatchFolders, KeepRowsOfCasesThatAreRunAnywhere) {
   EXPECT_GT(a.stages.simulate_s, 0.0);
   EXPECT_LE(a.stages.simulate_s + a.stages.write_s, a.seconds);
   batch.write_tables();
-  EXPECT_THAT(read_file(folder + "/results.csv"), HasSubstr("\na,completed,,1354,15.6464,"));
+  EXPECT_THAT(read_file(folder + "/results.csv"), HasSubstr("\na,completed,,1354,15.646"));
 }
 
 TEST_F(BatchFolders, BelongToOneAtATime) {
