@@ -65,9 +65,9 @@ TEST(BatchShard, IsReadFromText) {
 TEST(BatchPlan, NamesCasesByTheirFilesOrFolders) {
   const std::string data = std::string(test::source_dir()) + "/data/";
   const auto plan = plan_batch({data + "*/case.toml", data + "paper/free.toml"});
-  ASSERT_THAT(plan, SizeIs(6));  // design, fe-car, neon-kw400, paper, silverado-kw400, free
+  ASSERT_THAT(plan, SizeIs(7));  // design, fe-car, neon-kw400, paper, scatter, silverado-kw400, free
   EXPECT_EQ(plan[0], (BatchCase{"design", data + "design/case.toml"}));
-  EXPECT_EQ(plan[5], (BatchCase{"free", data + "paper/free.toml"}));
+  EXPECT_EQ(plan[6], (BatchCase{"free", data + "paper/free.toml"}));
 }
 
 class BatchFolders : public testing::Test {
