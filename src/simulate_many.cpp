@@ -13,12 +13,13 @@
 #include "event_metrics.hpp"
 #include "output_times.hpp"
 #include "parallel.hpp"
+#include "solver/cvode_batch.hpp"
 #include "solver/lane_motions.hpp"
 
 namespace crashsim {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // models a thread takes at a time
+constexpr std::size_t kBlock = kBatch;  // models a thread takes at a time
 constexpr std::size_t kFewestSamples = 3;
 constexpr double kStepPerResult = 0.1;  // error of a Taylor step to that of the result: measured 0.3 rtol and less
 
@@ -162,26 +163,35 @@ void load(const CrushModels& models, std::size_t index, LaneModel& lane) {
   lane.unloading.restitution = entry_or(models.restitution, index, common.unloading.restitution);
 }
 
-/// Models first..first+count-1 by the Taylor kernel. @returns steps.
-long run_taylor(const Study& study, std::size_t first, std::size_t count, LaneMotions& motions, Scratch& scratch) {
-  CrushResponses& out = study.out;
-  const auto row = [&](std::size_t index) -> LaneRow {
+/// What a thread keeps from block to block.
+struct Worker {
+  std::unique_ptr<LaneMotions> lanes;
+  std::unique_ptr<CvodeBatch> batch;
+  Scratch scratch;
+  std::vector<std::size_t> alone;
+  long steps = 0;
+};
+
+/// Models first..first+count-1 as work for an engine.
+LaneWork work_of(const Study& study, std::size_t first, std::size_t count, Scratch& scratch) {
+  const auto row = [&study, &scratch, first](std::size_t index) -> LaneRow {
+    CrushResponses& out = study.out;
     if (study.options.samples) return row_in(out.accel_mps2, out.velocity_mps, out.displacement_m, first + index);
     if (study.needs_samples()) return row_in(scratch.accel, scratch.velocity, scratch.displacement, index);
     return {};
   };
-  return motions.run({count, [&](std::size_t index, LaneModel& lane) { load(study.models, first + index, lane); }, row,
-                      [&](std::size_t index, const MotionSummary& summary) {
-                        judge(study, first + index, outcome_of(summary), summary, row(index));
-                      }});
+  return {count, [&study, first](std::size_t index, LaneModel& lane) { load(study.models, first + index, lane); }, row,
+          [&study, first, row](std::size_t index, const MotionSummary& summary) {
+            judge(study, first + index, outcome_of(summary), summary, row(index));
+          }};
 }
 
 /// One model by simulate(). @returns steps.
-long run_alone(const Study& study, std::size_t index, Integrator integrator) {
+long run_alone(const Study& study, std::size_t index) {
   SimulateOptions options;
   options.times_s = study.out.time_s;
   options.rtol = study.options.rtol;
-  options.integrator = integrator;
+  options.integrator = Integrator::cvode;
   CrushResponse run = simulate(study.models.model(index), options);
   for (auto* column : {&run.accel_mps2, &run.velocity_mps, &run.displacement_m})
     column->resize(study.samples(), kUnset);
@@ -196,16 +206,13 @@ long run_alone(const Study& study, std::size_t index, Integrator integrator) {
   return run.statistics.steps;
 }
 
-/// What a thread keeps from block to block.
-struct Worker {
-  LaneMotions motions;
-  Scratch scratch;
-  long steps = 0;
-};
-
 std::unique_ptr<Worker> make_worker(const Study& study) {
-  const double tolerance = kStepPerResult * study.options.rtol;
-  auto worker = std::make_unique<Worker>(Worker{{study.out.time_s, tolerance, widest_instruction_set()}, {}, 0});
+  const double rtol = study.options.rtol;
+  auto worker = std::make_unique<Worker>();
+  if (study.options.integrator == ManyIntegrator::taylor)
+    worker->lanes = std::make_unique<LaneMotions>(study.out.time_s, kStepPerResult * rtol, widest_instruction_set());
+  if (study.options.integrator == ManyIntegrator::cvode_batch)
+    worker->batch = std::make_unique<CvodeBatch>(study.out.time_s, rtol, widest_instruction_set());
   if (study.options.samples || !study.needs_samples()) return worker;
   const auto rows = static_cast<Eigen::Index>(kBlock), columns = static_cast<Eigen::Index>(study.samples());
   for (RowMatrix* matrix : {&worker->scratch.accel, &worker->scratch.velocity, &worker->scratch.displacement})
@@ -216,10 +223,14 @@ std::unique_ptr<Worker> make_worker(const Study& study) {
 void run_block(const Study& study, std::size_t block, Worker& worker) {
   const std::size_t first = block * kBlock;
   const std::size_t count = std::min(kBlock, study.out.outcome.size() - first);
-  if (study.options.integrator == Integrator::taylor)
-    worker.steps += run_taylor(study, first, count, worker.motions, worker.scratch);
-  else
-    for (std::size_t i = first; i < first + count; ++i) worker.steps += run_alone(study, i, study.options.integrator);
+  if (worker.lanes) {
+    worker.steps += worker.lanes->run(work_of(study, first, count, worker.scratch));
+  } else if (worker.batch) {
+    worker.steps += worker.batch->run(work_of(study, first, count, worker.scratch), worker.alone);
+    for (const std::size_t i : worker.alone) worker.steps += run_alone(study, first + i);
+  } else {
+    for (std::size_t i = first; i < first + count; ++i) worker.steps += run_alone(study, i);
+  }
 }
 
 }  // namespace

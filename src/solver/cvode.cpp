@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "solver/small_vector.hpp"
-
 namespace crashsim {
 namespace {
 
@@ -29,12 +27,12 @@ void silent(int, const char*, const char*, char*, void*) {}  // every return cod
 
 }  // namespace
 
-Cvode::Cvode(int length, Rhs rhs)
+Cvode::Cvode(int length, Rhs rhs, NewVector new_vector)
     : rhs_(std::move(rhs)),
       context_(new_context()),
-      state_(require(new_small_vector(length, context_.get()))),
-      atol_(require(new_small_vector(length, context_.get()))),
-      derivative_(require(new_small_vector(length, context_.get()))),
+      state_(require(new_vector(length, context_.get()))),
+      atol_(require(new_vector(length, context_.get()))),
+      derivative_(require(new_vector(length, context_.get()))),
       memory_(require(CVodeCreate(CV_ADAMS, context_.get()))),
       nonlinear_solver_(require(SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()))) {
 #if SUNDIALS_VERSION_MAJOR < 7
@@ -49,6 +47,12 @@ void Cvode::set_tolerances(double rtol, std::span<const double> atol) {
   std::copy(atol.begin(), atol.end(), N_VGetArrayPointer(atol_.get()));
 }
 
+void Cvode::set_weights(std::span<const double> weights) { weights_.assign(weights.begin(), weights.end()); }
+
+void Cvode::set_iteration_error(double fraction) {
+  check(CVodeSetNonlinConvCoef(memory_.get(), fraction), "CVodeSetNonlinConvCoef");
+}
+
 void Cvode::set_stop_time(double t) { check(CVodeSetStopTime(memory_.get(), t), "CVodeSetStopTime"); }
 
 void Cvode::start(double t, std::span<const double> y, double first_step) {
@@ -59,7 +63,10 @@ void Cvode::start(double t, std::span<const double> y, double first_step) {
     check(CVodeReInit(memory, t, state_.get()), "CVodeReInit");
   } else {
     check(CVodeInit(memory, rhs_callback, t, state_.get()), "CVodeInit");
-    check(CVodeSVtolerances(memory, rtol_, atol_.get()), "CVodeSVtolerances");
+    if (weights_.empty())
+      check(CVodeSVtolerances(memory, rtol_, atol_.get()), "CVodeSVtolerances");
+    else
+      check(CVodeWFtolerances(memory, weights_callback), "CVodeWFtolerances");
     check(CVodeSetUserData(memory, this), "CVodeSetUserData");
     check(CVodeSetNonlinearSolver(memory, nonlinear_solver_.get()), "CVodeSetNonlinearSolver");
     initialised_ = true;
@@ -106,6 +113,12 @@ int Cvode::rhs_callback(sunrealtype t, N_Vector y, N_Vector ydot, void* self) no
     me.pending_ = std::current_exception();
     return -1;
   }
+}
+
+int Cvode::weights_callback(N_Vector, N_Vector weights, void* self) noexcept {
+  const auto& me = *static_cast<Cvode*>(self);
+  std::copy(me.weights_.begin(), me.weights_.end(), N_VGetArrayPointer(weights));
+  return 0;
 }
 
 void Cvode::check(int flag, const char* call) const {

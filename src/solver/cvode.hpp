@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/sundials_compat.hpp"
+#include "solver/small_vector.hpp"
 
 namespace crashsim {
 
@@ -24,12 +24,17 @@ struct SolverError : std::runtime_error {
 class Cvode {
  public:
   using Rhs = std::function<void(double t, const double* y, double* ydot)>;
+  using NewVector = N_Vector (*)(sunindextype length, SUNContext context);
 
   /// @param length number of unknowns. @throws std::bad_alloc, SolverError.
-  Cvode(int length, Rhs rhs);
+  Cvode(int length, Rhs rhs, NewVector new_vector = new_small_vector);
 
   /// Relative tolerance, and absolute ones per unknown; before start().
   void set_tolerances(double rtol, std::span<const double> atol);
+  /// Instead of tolerances: weight of each unknown's error, 0 where it does not count; may change between steps.
+  void set_weights(std::span<const double> weights);
+  /// Error left by the iteration for a step's end, of what its error may be; CVODE's own choice is 0.1.
+  void set_iteration_error(double fraction);
   /// Never steps beyond this time.
   void set_stop_time(double t);
   /// Starts, or starts anew, from a state. @param first_step 0: CVODE chooses.
@@ -48,6 +53,7 @@ class Cvode {
 
  private:
   static int rhs_callback(sunrealtype t, N_Vector y, N_Vector ydot, void* self) noexcept;
+  static int weights_callback(N_Vector y, N_Vector weights, void* self) noexcept;
   void check(int flag, const char* call) const;
 
   template <auto Destroy>
@@ -71,6 +77,7 @@ class Cvode {
   NonlinearSolver nonlinear_solver_;
   double time_ = 0.0;
   double rtol_ = 1e-8;
+  std::vector<double> weights_;  // empty: by tolerances
   bool initialised_ = false;
   long rhs_evaluations_ = 0;
 };

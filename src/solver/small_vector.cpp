@@ -8,14 +8,8 @@
 namespace crashsim {
 namespace {
 
-struct Content {
-  sunindextype length;
-  sunrealtype* data;
-};
-
-Content& content(N_Vector v) { return *static_cast<Content*>(v->content); }
-sunrealtype* data(N_Vector v) { return content(v).data; }
-sunindextype length(N_Vector v) { return content(v).length; }
+sunrealtype* data(N_Vector v) { return small_vector_data(v); }
+sunindextype length(N_Vector v) { return static_cast<SmallVectorContent*>(v->content)->length; }
 
 template <class Op>
 void apply(N_Vector x, N_Vector z, Op op) {
@@ -41,7 +35,11 @@ sunrealtype reduce(N_Vector x, N_Vector y, Op op) {
   return sum;
 }
 
-N_Vector clone(N_Vector v) { return new_small_vector(length(v), v->sunctx); }
+N_Vector clone(N_Vector v) {
+  N_Vector copy = new_small_vector(length(v), v->sunctx);
+  if (copy != nullptr) *copy->ops = *v->ops;
+  return copy;
+}
 
 void destroy(N_Vector v) {
   if (v == nullptr) return;
@@ -103,15 +101,16 @@ int scale_add_multi(int count, sunrealtype* a, N_Vector x, N_Vector* y, N_Vector
 }  // namespace
 
 N_Vector new_small_vector(sunindextype length, SUNContext context) {
-  // One block: the content, then its numbers.
-  void* block = std::calloc(1, sizeof(Content) + static_cast<std::size_t>(length) * sizeof(sunrealtype));
+  constexpr std::size_t kAlignment = alignof(SmallVectorContent);
+  const std::size_t size = sizeof(SmallVectorContent) + static_cast<std::size_t>(length) * sizeof(sunrealtype);
+  void* block = std::aligned_alloc(kAlignment, (size + kAlignment - 1) / kAlignment * kAlignment);
   N_Vector v = block == nullptr ? nullptr : N_VNewEmpty(context);
   if (v == nullptr) {
     std::free(block);
     return nullptr;
   }
-  auto* body = new (block) Content{length, nullptr};
-  body->data = reinterpret_cast<sunrealtype*>(body + 1);
+  auto* body = new (block) SmallVectorContent{length};
+  std::fill_n(body->data(), length, 0.0);
   v->content = body;
   v->ops->nvgetvectorid = [](N_Vector) { return SUNDIALS_NVEC_CUSTOM; };
   v->ops->nvclone = clone;

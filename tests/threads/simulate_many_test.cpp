@@ -1,6 +1,7 @@
 #include <crashsim/simulate_many.hpp>
 
 #include <cstring>
+#include <string>
 
 #include <gmock/gmock.h>
 
@@ -9,9 +10,15 @@
 namespace crashsim {
 namespace {
 
-TEST(SimulateManyThreads, GiveTheSameBitsWhateverTheirNumber) {
+class SimulateManyThreads : public testing::TestWithParam<ManyIntegrator> {};
+INSTANTIATE_TEST_SUITE_P(Integrators, SimulateManyThreads,
+                         testing::Values(ManyIntegrator::taylor, ManyIntegrator::cvode_batch),
+                         [](const auto& integrator) { return std::string(name_of(integrator.param)); });
+
+TEST_P(SimulateManyThreads, GiveTheSameBitsWhateverTheirNumber) {
   const CrushModels models = test::random_family(5, 500);
   SimulateManyOptions options;
+  options.integrator = GetParam();
   options.dt_s = 2e-3;
   options.metrics = ManyMetrics::all;
   options.jobs = 1;

@@ -80,7 +80,7 @@ TEST(SimulateMany, GivesEveryMetricWithoutKeepingTheMotions) {
 TEST(SimulateMany, TakesTheRecordIntegrator) {
   const CrushModels models = test::random_family(3, 20);
   SimulateManyOptions options;
-  options.integrator = Integrator::cvode;
+  options.integrator = ManyIntegrator::cvode;
   const CrushResponses cvode = simulate_many(models, options), taylor = simulate_many(models);
   for (std::size_t i = 0; i < models.count(); ++i) {
     EXPECT_EQ(cvode.outcome[i], taylor.outcome[i]) << i;
