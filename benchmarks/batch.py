@@ -114,7 +114,8 @@ def same(a: Path, b: Path) -> bool:
 
 def show(what: str, done: Run) -> None:
     """One line of the table."""
-    print(f"  {what:<44} {done.seconds:8.1f} s {done.rate:7.0f} cases/s {done.program_mb:7.1f} MB {done.worker_mb:7.1f} MB")
+    memory = f"{done.program_mb:7.1f} MB {done.worker_mb:7.1f} MB"
+    print(f"  {what:<44} {done.seconds:8.1f} s {done.rate:7.0f} cases/s {memory}")
 
 
 def show_memory(program: str, folder: Path, cases: int) -> None:
@@ -152,7 +153,9 @@ def main() -> None:
         joined = Run(seconds, rate, max(p.program_mb for p in parts), max(p.worker_mb for p in parts))
         show(f"{given.shards} shards, one after the other", joined)
         show("their merge", run(given.program, "merge", *shards, "-o", str(folder / "merged")))
-        show("--resume with nothing to do", run(given.program, "batch", manifest, "-o", str(folder / "all"), "--resume"))
+        show(
+            "--resume with nothing to do", run(given.program, "batch", manifest, "-o", str(folder / "all"), "--resume")
+        )
         for other in ("all", "merged"):
             if not same(reference, folder / other):
                 sys.exit(f"batch.py: the files of '{other}' differ from those of 1 process")

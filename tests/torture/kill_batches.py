@@ -1,10 +1,11 @@
 """Kills batches at random times until they are done: python kill_batches.py PROGRAM [--kills 100] [--seed 1].
 
-Kills the program, one of its workers or all at once by SIGKILL, goes on with --resume, and compares the files with those
-of a batch that nobody disturbed. Ends with status 1 at the first difference, and leaves the folders to look at.
+Kills the program, one of its workers or all at once by SIGKILL, goes on with --resume, and compares the files with
+those of a batch that nobody disturbed. Ends with status 1 at the first difference, and leaves the folders to look at.
 """
 
 import argparse
+import contextlib
 import os
 import random
 import shutil
@@ -42,14 +43,12 @@ def kill(pid: int, dice: random.Random) -> str:
     victim = dice.choice(("program", "program", "worker", "all"))
     workers = workers_of(pid)
     if victim == "worker" and workers:
-        os.kill(dice.choice(workers), signal.SIGKILL)
-        return victim
-    os.kill(pid, signal.SIGKILL)
-    for worker in workers if victim == "all" else []:
-        try:
-            os.kill(worker, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
+        doomed = [dice.choice(workers)]
+    else:
+        doomed = [pid, *workers] if victim == "all" else [pid]
+    for process in doomed:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
     return victim
 
 

@@ -14,7 +14,9 @@ VEHICLE = (
 def trace(speed_mps: float) -> str:
     """Half a sine of 100 ms."""
     rows = [f"# mass_kg = 1500\n# impact_speed_mps = {speed_mps}\ntime_s,accel_g\n"]
-    rows += [f"{i * 2e-4:.4f},{-27 * math.sin(math.pi * i / 500) if 0 < i < 500 else 0.0:.6g}\n" for i in range(-50, 601)]
+    rows += [
+        f"{i * 2e-4:.4f},{-27 * math.sin(math.pi * i / 500) if 0 < i < 500 else 0.0:.6g}\n" for i in range(-50, 601)
+    ]
     return "".join(rows)
 
 

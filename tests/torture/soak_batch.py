@@ -1,7 +1,6 @@
 """One long batch, watched: python soak_batch.py PROGRAM [--minutes 30].
 
-Runs mixed cases for a time, stops by Ctrl-C, goes on for a moment, and prints the memory of the program and of its workers
-over time. Ends with status 1 when one grows, or a case ends as it should not.
+Runs mixed cases for a time, stops by Ctrl-C, and prints the memory of the program and of its workers over time. Ends with status 1 when one grows, or a case ends as it should not.
 """
 
 import argparse
