@@ -42,10 +42,7 @@ def kill(pid: int, dice: random.Random) -> str:
     """Kills the program, or a worker, or the program and then all its workers. A killed worker leaves it running."""
     victim = dice.choice(("program", "program", "worker", "all"))
     workers = workers_of(pid)
-    if victim == "worker" and workers:
-        doomed = [dice.choice(workers)]
-    else:
-        doomed = [pid, *workers] if victim == "all" else [pid]
+    doomed = {"program": [pid], "worker": [dice.choice(workers or [pid])], "all": [pid, *workers]}[victim]
     for process in doomed:
         with contextlib.suppress(ProcessLookupError):
             os.kill(process, signal.SIGKILL)
