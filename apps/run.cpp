@@ -101,9 +101,7 @@ class RunCommand : public FolderCommand {
 
   /// The case itself, then its samples.
   CaseResult run_watched(const Case& study) const {
-    Case alone = study;
-    alone.sweep = {};
-    alone.monte_carlo = {};
+    const Case alone = without_samples(study);
     CaseResult result = watch("starts", quiet(), [&](const Progress& progress) { return run_case(alone, progress); });
     if (!has_samples(study) || interrupted() || result.response.outcome == CrushOutcome::not_run) return result;
     const SamplePlan plan = plan_samples(study, result);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <crashsim/error.hpp>
+#include <crashsim/sweep.hpp>
 
 namespace crashsim {
 namespace {
@@ -31,7 +32,7 @@ std::string in_words_of(const Case& study, std::string_view message) {
 
 DesignCaseResult run_design(const Case& study, const Progress& progress) {
   DesignCaseResult out;
-  out.base = run_case(study, progress);
+  out.base = run_case(without_samples(study), progress);
   if (out.base.response.outcome == CrushOutcome::not_run) return out;
   if (!study.forcing.file.empty())
     out.notes.emplace_back("the force file of [pitch] is not used: a design changes the force, which the model gives");

@@ -111,13 +111,17 @@ std::uint64_t count_of(const SampleTable& table, const std::string& where) {
 
 bool has_samples(const Case& study) { return !variations_of(study).empty(); }
 
+Case without_samples(Case study) {
+  study.sweep = {};
+  study.monte_carlo = {};
+  return study;
+}
+
 SamplePlan plan_samples(const Case& study, const CaseResult& base) {
   check_variations(study);
   const std::vector<Variation>& vary = variations_of(study);
   if (vary.empty()) throw InvalidInput(fmt::format("{}: has neither [sweep] nor [monte_carlo]", study.path));
-  SamplePlan plan{study, {}, {}, {}};
-  plan.study.sweep = {};
-  plan.study.monte_carlo = {};
+  SamplePlan plan{without_samples(study), {}, {}, {}};
   plan.base.pulse = base.pulse;
   plan.base.model = base.model;
   plan.base.forcing = base.forcing;

@@ -243,6 +243,10 @@ const std::vector<Variation>& variations_of(const Case& study) {
 void check_variations(const Case& study) {
   if (!study.sweep.vary.empty() && !study.monte_carlo.vary.empty())
     throw InvalidInput(fmt::format("{}: has both [sweep] and [monte_carlo]: leave one out", study.path));
+  if (study.monte_carlo.vary.empty() && study.monte_carlo != MonteCarloOptions())
+    throw InvalidInput(
+        fmt::format("{}: [monte_carlo] names nothing that varies: vehicle.mass = {{normal = [1400, 30]}}, for instance",
+                    study.path));
   for (const Variation& variation : variations_of(study)) {
     const std::string what = what_varies(study, variation);
     check_kind(variation, section_of(study), what);

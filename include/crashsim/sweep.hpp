@@ -13,6 +13,9 @@ namespace crashsim {
 /// Whether a case asks for samples, by [sweep] or [monte_carlo].
 bool has_samples(const Case& study);
 
+/// The case itself, without samples.
+Case without_samples(Case study);
+
 /// What every sample shares.
 struct SamplePlan {
   Case study;                     ///< Without its [sweep] and [monte_carlo].

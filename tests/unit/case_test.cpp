@@ -110,6 +110,7 @@ TEST(Case, EveryKeyCanBeSetAndIsRecorded) {
     if (key.section == "vehicle") toml += vehicle_without(key.key);
     if (key.key == "motion") toml += "front_position = 1\nrear_position = 0\ncg_position = 0\n";
     if (key.section == "pitch" || key.key == "motion") toml += "[vehicle]\n" + vehicle_without("");
+    if (key.section == "monte_carlo") toml += "vehicle.mass = {uniform = [1, 2]}\n";
     if (key.section != "pulse") toml += kPulseOnly;
     const Case study = read_case(dir.file("case.toml", toml));
     EXPECT_EQ(entry_of(entries_of(study), key).value, value) << toml;

@@ -261,11 +261,7 @@ TEST_F(Sweep, SobolIndicesOfTheEnergyAreTheAnalyticOnes) {
 
 TEST_F(Sweep, StoppedItKeepsWhatIsDone) {
   Case study = read(pitch_case("[monte_carlo]\nsamples = 100000\nforce_height = {uniform = [0.45, 0.5]}\n"));
-  const SamplePlan plan = plan_samples(study, run_case([&] {
-                                         Case alone = study;
-                                         alone.monte_carlo = {};
-                                         return alone;
-                                       }()));
+  const SamplePlan plan = plan_samples(study, run_case(without_samples(study)));
   const SampleTable table = run_samples(plan, 0, plan.table.planned, [](int done, int) { return done == 0; });
   EXPECT_GT(table.rows(), 0U);
   EXPECT_LT(table.rows(), 100000U);
@@ -318,6 +314,7 @@ TEST_F(Sweep, BadKeysAreRefusedWhenTheCaseIsRead) {
       {"[monte_carlo]\nmass = {normal = [1, 2], lower = [3, 4]}\n",
        "[monte_carlo] vehicle.mass lower = '3,4': is not a number"},
       {"[monte_carlo]\ncrush.spring_knots = {uniform = [3, 7]}\n", "must be a whole number: give a table of values"},
+      {"[monte_carlo]\nsamples = 10\n", "case.toml: [monte_carlo] names nothing that varies"},
       {"[monte_carlo]\nsamples = 1000000000\n", "samples = 1e+09: must be >= 1 and <= 1e+06"},
       {"[monte_carlo]\nmethod = \"sobel\"\n", "did you mean 'sobol'?"},
   };
