@@ -21,7 +21,8 @@ void refuse_masked(const py::handle& object, const std::string& what) {
     throw InvalidInput(what + ": has masked samples; cut them off or fill them");
 }
 
-py::array_t<double> real_vector(const py::handle& object, const std::string& what) {
+/// An object as an array of real numbers of so many dimensions.
+py::array_t<double> real_array(const py::handle& object, int dimensions, const std::string& what) {
   if (!is_array_like(object))
     throw py::type_error(what + ": must be an array of real numbers, is " +
                          std::string(py::repr(py::type::of(object))));
@@ -31,7 +32,9 @@ py::array_t<double> real_vector(const py::handle& object, const std::string& wha
   if (array.size() > 0 && kRealKinds.find(kind) == std::string_view::npos)
     throw py::type_error(what + ": must be an array of real numbers, its dtype is " +
                          std::string(py::str(array.dtype())));
-  if (array.ndim() != 1) throw InvalidInput(what + ": must be one-dimensional, its shape is " + shape_of(array));
+  if (array.ndim() != dimensions)
+    throw InvalidInput(what + ": must be " + (dimensions == 1 ? "one" : "two") + "-dimensional, its shape is " +
+                       shape_of(array));
   return py::array_t<double, py::array::c_style | py::array::forcecast>(array);
 }
 
@@ -52,12 +55,25 @@ void check_finite(const Doubles& samples) {
     check_finite(values[i], samples.what() + "[" + std::to_string(i) + "]");
 }
 
-Doubles::Doubles(const py::handle& object, const std::string& what) : array_(real_vector(object, what)), what_(what) {}
+Doubles::Doubles(const py::handle& object, const std::string& what)
+    : array_(real_array(object, 1, what)), what_(what) {}
 
 py::array view_of(std::span<const double> values, const py::handle& owner) {
   py::array_t<double> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
+}
+
+py::array view_of(const RowMatrix& values, const py::handle& owner) {
+  py::array_t<double> array({values.rows(), values.cols()}, values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+RowMatrix matrix_from(const py::handle& object, const std::string& what) {
+  if (object.is_none()) return {};
+  const py::array_t<double> array = real_array(object, 2, what);
+  return Eigen::Map<const RowMatrix>(array.data(), array.shape(0), array.shape(1));
 }
 
 py::array array_of(std::vector<double>&& values) {

@@ -7,6 +7,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <crashsim/simulate_many.hpp>
+
 namespace crashsim::python {
 
 namespace py = pybind11;
@@ -39,6 +41,13 @@ void check_finite(const Doubles& samples);
 
 /// A read-only array over `values`, which `owner` keeps alive.
 py::array view_of(std::span<const double> values, const py::handle& owner);
+
+/// The same of two dimensions.
+py::array view_of(const RowMatrix& values, const py::handle& owner);
+
+/// A copy of a two-dimensional array that a caller gave, of its shape (0, 0) for None.
+/// @throws InvalidInput naming `what` when it is not two-dimensional, TypeError when it holds no real numbers.
+RowMatrix matrix_from(const py::handle& object, const std::string& what);
 
 /// An array that takes over `values`.
 py::array array_of(std::vector<double>&& values);

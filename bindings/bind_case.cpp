@@ -11,16 +11,11 @@
 #include "bindings.hpp"
 #include "long_call.hpp"
 #include "paths.hpp"
+#include "summaries.hpp"
 #include "value_class.hpp"
 
 namespace crashsim::python {
 namespace {
-
-py::dict dict_of(const Summary& summary) {
-  py::dict out;
-  for (const SummaryItem& item : summary) out[py::str(item.name)] = py::cast(item.value);
-  return out;
-}
 
 py::dict options_of(const Case& study) {
   py::dict out;
@@ -110,12 +105,7 @@ void bind_case_classes(py::module_& module) {
           "summary", [](const CaseResult& self) { return dict_of(summarize(self)); },
           "Numbers of the model's response and its heave and pitch, under their names in summary.json.")
       .def(
-          "parts",
-          [](const CaseResult& self) {
-            py::dict parts;
-            for (const auto& [name, summary] : summary_parts(self)) parts[py::str(name)] = dict_of(summary);
-            return parts;
-          },
+          "parts", [](const CaseResult& self) { return dict_of(summary_parts(self)); },
           "The other summaries: 'pulse', 'identification', 'coupled', ``rating_*``, ``prediction_*``.");
 }
 

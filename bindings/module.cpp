@@ -38,6 +38,7 @@ PYBIND11_MODULE(_core, module) {
   bind_traces(module);
   bind_pulse(module);
   bind_crush(module);
+  bind_simulate_many(module);
   bind_identify(module);
   bind_judgement(module);
   bind_rating(module);

@@ -1,6 +1,7 @@
 #pragma once
 /// Binds a value struct: its members, each listed once, give read-only attributes, the keywords of the constructor and
 /// of replace(), repr, equality, copies and pickles.
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <string>
@@ -120,6 +121,30 @@ class ValueClass : public py::class_<S> {
     return *this;
   }
 
+  /// Every number of a table, of each struct of a list: arrays over its memory.
+  template <class T, std::size_t N>
+  ValueClass& columns(std::vector<T> S::*member, const std::array<NamedNumber<T>, N>& table) {
+    for (const NamedNumber<T>& number : table) {
+      const std::string name(number.name), what = BoundFields<S>::name + "." + name;
+      const double T::*of = number.member;
+      BoundFields<S>::list.push_back(
+          {name, [member, of](const S& value, const py::handle& owner) { return column_of(value.*member, of, owner); },
+           [member, &number, what](S& value, const py::handle& given) {
+             set_column(value.*member, number.member, Doubles(given, what));
+           },
+           [member, of](const S& a, const S& b) {
+             return std::equal((a.*member).begin(), (a.*member).end(), (b.*member).begin(), (b.*member).end(),
+                               [of](const T& x, const T& y) { return same(x.*of, y.*of); });
+           }});
+      this->def_property_readonly(
+          name.c_str(),
+          [member, of](const py::object& self) { return column_of(self.cast<const S&>().*member, of, self); },
+          doc_of(number).c_str());
+      list(name, "Array");
+    }
+    return *this;
+  }
+
   /// Every field of the struct's option table, with its names, units, ranges and docs.
   ValueClass& option_fields() {
     for (const Field<S>& option : fields<S>) {
@@ -174,6 +199,24 @@ class ValueClass : public py::class_<S> {
       return "tuple[float, ...]";
     else
       return type_name<T>();
+  }
+
+  template <class T>
+  static py::object column_of(const std::vector<T>& structs, const double T::*member, const py::handle& owner) {
+    if (structs.empty()) return view_of(std::span<const double>(), owner);
+    py::array_t<double> array({structs.size()}, {sizeof(T)}, &(structs.front().*member), owner);
+    array.attr("setflags")(py::arg("write") = false);
+    return array;
+  }
+
+  template <class T>
+  static void set_column(std::vector<T>& structs, double T::*member, const Doubles& given) {
+    const std::span<const double> values = given.view();
+    if (structs.empty()) structs.resize(values.size());
+    if (structs.size() != values.size())
+      throw InvalidInput(given.what() + ": has " + std::to_string(values.size()) + " values, another array has " +
+                         std::to_string(structs.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) structs[i].*member = values[i];
   }
 
   py::dict types_;

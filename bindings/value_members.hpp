@@ -1,6 +1,7 @@
 #pragma once
 /// One member of a bound value struct on its way to Python and back, and its comparison. Unset numbers are NaN in
 /// results and None where a caller gives them.
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstdint>
@@ -22,6 +23,7 @@
 
 #include "arrays.hpp"
 #include "series.hpp"
+#include "summaries.hpp"
 
 namespace crashsim::python {
 
@@ -45,12 +47,39 @@ struct IsVector<std::vector<T>> : std::true_type {};
 
 using SharedTimes = std::shared_ptr<const std::vector<double>>;
 
+/// A text and something.
+template <class T>
+struct IsPair : std::false_type {};
+template <class T>
+struct IsPair<std::pair<std::string, T>> : std::true_type {};
+
+template <class T>
+inline constexpr bool is_summary = std::is_same_v<T, Summary> || std::is_same_v<T, SummaryParts>;
+
+/// Names, one of a list of enumerators each.
+template <class T>
+inline constexpr bool is_enum_vector = false;
+template <class E>
+inline constexpr bool is_enum_vector<std::vector<E>> = std::is_enum_v<E>;
+
 /// A struct bound by ValueClass.
 template <class T>
 inline constexpr bool is_bound =
     std::is_class_v<T> && !IsSetting<T>::value && !IsOptional<T>::value && !IsVector<T>::value &&
     !std::is_same_v<T, std::string> && !std::is_same_v<T, SharedTimes> && !std::is_same_v<T, std::complex<double>> &&
-    !std::is_same_v<T, std::pair<std::string, std::string>>;
+    !std::is_same_v<T, RowMatrix> && !IsPair<T>::value;
+
+/// The names of enumerators as an array of texts.
+template <class E>
+py::array array_of_names(const std::vector<E>& values) {
+  py::list names;
+  for (const std::string_view name : enum_names<E>) names.append(py::str(std::string(name)));
+  py::array_t<int> codes(static_cast<py::ssize_t>(values.size()));
+  std::transform(values.begin(), values.end(), codes.mutable_data(), [](E value) { return static_cast<int>(value); });
+  const py::array array = py::module_::import("numpy").attr("array")(names)[codes];
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
 
 /// `owner` keeps alive what the Python object may refer to.
 template <class T>
@@ -59,8 +88,12 @@ py::object to_python(const T& value, const py::handle& owner) {
     return py::str(std::string(dimension_name(value)));
   } else if constexpr (is_named_enum<T>) {
     return py::str(std::string(name_of(value)));
-  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+  } else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, RowMatrix>) {
     return view_of(value, owner);
+  } else if constexpr (is_summary<T>) {
+    return dict_of(value);
+  } else if constexpr (is_enum_vector<T>) {
+    return array_of_names(value);
   } else if constexpr (std::is_same_v<T, std::vector<std::vector<double>>>) {
     return array_of(value);
   } else if constexpr (std::is_same_v<T, SharedTimes>) {
@@ -110,6 +143,12 @@ T from_python(const py::handle& object, const std::string& what) {
       return object.is_none() ? kUnset : object.cast<double>();
     } else if constexpr (std::is_same_v<T, std::vector<double>>) {
       return Doubles(object, what).copy();
+    } else if constexpr (std::is_same_v<T, RowMatrix>) {
+      return matrix_from(object, what);
+    } else if constexpr (std::is_same_v<T, Summary>) {
+      return summary_from(object);
+    } else if constexpr (std::is_same_v<T, SummaryParts>) {
+      return summary_parts_from(object);
     } else if constexpr (std::is_same_v<T, TimeSeries>) {
       return series_from(object, what);
     } else if constexpr (std::is_same_v<T, SharedTimes>) {
@@ -153,8 +192,14 @@ std::string type_name() {
   } else if constexpr (is_named_enum<T>) {
     return literal_of(enum_names<T>);
   } else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, std::vector<std::vector<double>>> ||
-                       std::is_same_v<T, SharedTimes>) {
+                       std::is_same_v<T, SharedTimes> || std::is_same_v<T, RowMatrix>) {
     return "Array";
+  } else if constexpr (is_enum_vector<T>) {
+    return "NDArray[numpy.str_]";
+  } else if constexpr (std::is_same_v<T, Summary>) {
+    return "dict[str, Any]";
+  } else if constexpr (std::is_same_v<T, SummaryParts>) {
+    return "dict[str, dict[str, Any]]";
   } else if constexpr (IsSetting<T>::value) {
     constexpr auto names = enum_names<decltype(T::rule)>;
     return literal_of(names.first(names.size() - 1)) + " | tuple[float, ...]";
@@ -162,8 +207,8 @@ std::string type_name() {
     return type_name<typename T::value_type>() + " | None";
   } else if constexpr (IsVector<T>::value) {
     return "tuple[" + type_name<typename T::value_type>() + ", ...]";
-  } else if constexpr (std::is_same_v<T, std::pair<std::string, std::string>>) {
-    return "tuple[str, str]";
+  } else if constexpr (IsPair<T>::value) {
+    return "tuple[str, " + type_name<typename T::second_type>() + "]";
   } else if constexpr (std::is_same_v<T, std::complex<double>>) {
     return "complex";
   } else if constexpr (is_bound<T>) {
@@ -183,6 +228,11 @@ bool same(const T& a, const T& b) {
   } else if constexpr (std::is_same_v<T, SharedTimes>) {
     const std::vector<double> none;
     return a == b || same(a ? *a : none, b ? *b : none);
+  } else if constexpr (std::is_same_v<T, RowMatrix>) {
+    return a.rows() == b.rows() && a.cols() == b.cols() &&
+           std::equal(a.data(), a.data() + a.size(), b.data(), same<double>);
+  } else if constexpr (is_summary<T>) {
+    return same_summaries(a, b);
   } else if constexpr (IsSetting<T>::value) {
     return a.rule == b.rule && same(a.numbers, b.numbers);
   } else if constexpr (IsOptional<T>::value) {

@@ -44,6 +44,8 @@ def _is_unset(value: object) -> bool:
 
 def _brief(value: object) -> str:
     if isinstance(value, np.ndarray):
+        if value.size <= _MOST_ITEMS and value.ndim == 1 and value.dtype.kind == "U":
+            return "[" + ", ".join(value) + "]"
         if value.size <= _MOST_ITEMS and value.ndim == 1:
             return "[" + ", ".join(f"{x:.6g}" for x in value) + "]"
         return f"array of {' x '.join(map(str, value.shape))}"
@@ -71,9 +73,9 @@ def _repr_html(self: Any) -> str:
 
 
 def columns_of(result: Any) -> dict[str, np.ndarray]:
-    """The one-dimensional arrays of a result that are as long as its first one."""
+    """The one-dimensional arrays of a result that are as long as its first one; a row a model where it has many."""
     columns: dict[str, np.ndarray] = {}
-    for name in result._fields:
+    for name in getattr(result, "_columns", result._fields):
         value = getattr(result, name)
         if isinstance(value, np.ndarray) and value.ndim == 1:
             if columns and value.shape != next(iter(columns.values())).shape:

@@ -16,8 +16,8 @@ TOPICS = {
         "LoadCellWall WallStrip WallNumbers"
     ),
     "Crush": (
-        "simulate read_model write_model write_response export_model uniform_knots CrushModel "
-        "PiecewiseLinear Unloading CrushResponse SolverStatistics"
+        "simulate simulate_many read_model write_model write_response export_model uniform_knots CrushModel "
+        "PiecewiseLinear Unloading CrushResponse SolverStatistics CrushModels CrushResponses"
     ),
     "Identification": ("identify fit_error Identification Verdict FitError OrdinateReport ParameterReport StartReport"),
     "Heave and pitch": (
