@@ -22,6 +22,7 @@ void bind_vertical(py::module_& module);
 void bind_coupled(py::module_& module);
 void bind_design(py::module_& module);
 void bind_case(py::module_& module);
+void bind_batch(py::module_& module);
 void bind_files(py::module_& module);
 
 }  // namespace crashsim::python

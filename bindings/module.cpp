@@ -50,6 +50,7 @@ PYBIND11_MODULE(_core, module) {
   bind_coupled(module);
   bind_design(module);
   bind_case(module);
+  bind_batch(module);
   bind_files(module);
   list_public_names(module);
 }

@@ -63,6 +63,7 @@ OBJECTS = {
     **dict.fromkeys(("path", "output", "folder", "file"), "Path"),
     "at": "ArrayLike",
     "case": "Case | Path",
+    "cases": "Path | Sequence[Path]",
     "channels": "Names",
     "force": FORCE,
     "jobs": "int",
@@ -70,6 +71,7 @@ OBJECTS = {
     "motion": MOTION,
     "progress": "Progress",
     "pulses": "Pulse | Sequence[Pulse]",
+    "shards": "Path | Sequence[Path]",
     "vertical_force_n": "TimeSeries | Trace | tuple[ArrayLike, ArrayLike]",
     "weights": "Literal['normalised', 'paper'] | ArrayLike",
 }
@@ -102,6 +104,8 @@ RETURNS = {
     "parts": "dict[str, dict[str, Any]]",
     "summarize": "dict[str, Any]",
     "find_record": "dict[str, Any] | None",
+    "plan_batch": "tuple[BatchCase, ...]",
+    "__enter__": "BatchFolder",
 }
 ADORNED = {"_repr_html_": "str", "to_dataframe": "Any", "plot": "Any"}
 OPTION_TYPES = {
@@ -112,7 +116,7 @@ OPTION_TYPES = {
     "array_like": "ArrayLike",
     "str, int or sequence of them": "Names",
 }
-SPECIAL = ("__len__", "__getitem__", "__contains__", "__iter__", "__call__")
+SPECIAL = ("__len__", "__getitem__", "__contains__", "__iter__", "__call__", "__enter__", "__exit__")
 
 
 def main(folder: str, stub: str) -> None:
@@ -150,13 +154,18 @@ def class_lines(name: str, cls: type) -> list[str]:
         if isinstance(value, property):
             kind = types.get(member) or property_type(value)
             lines += ["    @property", f"    def {member}(self) -> {kind}: ..."]
-        elif callable(value) and is_listed(member):
+        elif callable(value) and (is_listed(member) or is_constructor(member, value.__doc__)):
             lines += function_lines(member, value.__doc__ or "", indent="    ")
     return lines
 
 
 def is_listed(method: str) -> bool:
     return method in SPECIAL or not (method.startswith("_") or method in ADORNED or method == "replace")
+
+
+def is_constructor(method: str, doc: str | None) -> bool:
+    """Whether a method is a constructor with arguments of its own, not those of a value class."""
+    return method == "__init__" and "__init__(self: " in (doc or "") and "*args" not in (doc or "")
 
 
 def given(kind: str) -> str:
@@ -207,6 +216,8 @@ def split_arguments(text: str) -> list[str]:
 
 
 def argument(function: str, text: str) -> str:
+    if text == "*args":
+        return "*args: object"
     found = re.fullmatch(r"(\w+): (.+?)(?: = (.+))?", text)
     if found is None or found.group(1) == "self":
         return text.split(":")[0]

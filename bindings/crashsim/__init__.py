@@ -20,6 +20,8 @@ import logging as _logging
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from . import _core
+from ._batch import RayExecutor as RayExecutor
+from ._batch import run_batch as run_batch
 from ._core import *  # noqa: F403  (its __all__ is the engine's public names)
 from ._display import adorn as _adorn
 
@@ -28,7 +30,7 @@ if _TYPE_CHECKING:
     from ._report import report as report
 
 __version__: str = _core.__version__
-__all__ = ["__version__", "plots", "report"]
+__all__ = ["RayExecutor", "__version__", "plots", "report", "run_batch"]
 __all__ += _core.__all__
 
 _logging.getLogger(__name__).addHandler(_logging.NullHandler())
