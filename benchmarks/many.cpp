@@ -39,7 +39,8 @@ void simulate_models(benchmark::State& state, SimulateManyOptions options, int c
 }  // namespace
 
 void register_many() {
-  const auto measure_many = [](const std::string& engine, Integrator integrator, double rtol, bool samples, int count) {
+  const auto measure_many = [](const std::string& engine, ManyIntegrator integrator, double rtol, bool samples,
+                               int count) {
     measure("many", engine, [=](benchmark::State& state) {
       SimulateManyOptions options;
       options.integrator = integrator;
@@ -51,11 +52,12 @@ void register_many() {
     });
   };
   for (const double rtol : {1e-6, 1e-8, 1e-10}) {
-    measure_many("crashsim simulate_many, taylor", Integrator::taylor, rtol, true, 1000);
-    measure_many("crashsim simulate_many, cvode", Integrator::cvode, rtol, true, 200);
+    measure_many("crashsim simulate_many, taylor", ManyIntegrator::taylor, rtol, true, 1000);
+    measure_many("crashsim simulate_many, cvode", ManyIntegrator::cvode, rtol, true, 200);
+    measure_many("crashsim simulate_many, cvode_batch", ManyIntegrator::cvode_batch, rtol, true, 200);
   }
-  measure_many("crashsim simulate_many, taylor", Integrator::taylor, 1e-8, true, 100);  // results that fit a cache
-  measure_many("crashsim simulate_many, taylor, metrics alone", Integrator::taylor, 1e-8, false, 1000);
+  measure_many("crashsim simulate_many, taylor", ManyIntegrator::taylor, 1e-8, true, 100);  // results that fit a cache
+  measure_many("crashsim simulate_many, taylor, metrics alone", ManyIntegrator::taylor, 1e-8, false, 1000);
 }
 
 }  // namespace crashsim::bench
