@@ -53,6 +53,10 @@ void Cvode::set_iteration_error(double fraction) {
   check(CVodeSetNonlinConvCoef(memory_.get(), fraction), "CVodeSetNonlinConvCoef");
 }
 
+void Cvode::set_least_growth(double factor) {
+  check(CVodeSetEtaFixedStepBounds(memory_.get(), 0.0, factor), "CVodeSetEtaFixedStepBounds");
+}
+
 void Cvode::set_stop_time(double t) { check(CVodeSetStopTime(memory_.get(), t), "CVodeSetStopTime"); }
 
 void Cvode::start(double t, std::span<const double> y, double first_step) {

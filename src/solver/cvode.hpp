@@ -35,6 +35,8 @@ class Cvode {
   void set_weights(std::span<const double> weights);
   /// Error left by the iteration for a step's end, of what its error may be; CVODE's own choice is 0.1.
   void set_iteration_error(double fraction);
+  /// Least factor by which the step is made longer; CVODE's own choice is 1.5.
+  void set_least_growth(double factor);
   /// Never steps beyond this time.
   void set_stop_time(double t);
   /// Starts, or starts anew, from a state. @param first_step 0: CVODE chooses.

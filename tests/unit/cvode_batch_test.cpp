@@ -21,6 +21,8 @@ namespace {
 constexpr double kUsual = 1e-6;  // of each channel's maximum at rtol 1e-8, for 90 % of models
 constexpr double kWorst = 1e-4;  // for all of them
 constexpr double kEvents = 3e-6;
+constexpr double kSteep =
+    3e-5;  // where acceleration changes within a millisecond: by the error of t_m, which is larger
 
 SimulateManyOptions options_of(ManyIntegrator integrator, double rtol = 1e-8) {
   SimulateManyOptions options;
@@ -129,9 +131,9 @@ TEST(CvodeBatch, UnloadsPlasticallyInClosedForm) {
     const double force = spring_force(models.common, metrics.max_crush_m);
     EXPECT_NEAR(metrics.static_crush_m, metrics.max_crush_m - returned * returned * models.common.mass_kg / force,
                 1e-12);
-    EXPECT_NEAR(metrics.t_m_s, record.metrics[i].t_m_s, kEvents);
+    EXPECT_NEAR(metrics.t_m_s, record.metrics[i].t_m_s, kEvents * record.metrics[i].t_m_s);
   }
-  for (const double error : differences(batch, record)) EXPECT_LE(error, kEvents);
+  for (const double error : differences(batch, record)) EXPECT_LE(error, kSteep);
 }
 
 TEST(CvodeBatch, SwingsOnTheReturnLineWhereTheBarrierPulls) {
@@ -139,8 +141,7 @@ TEST(CvodeBatch, SwingsOnTheReturnLineWhereTheBarrierPulls) {
   models.common.unloading.bilateral = true;
   const CrushResponses batch = run(models, ManyIntegrator::cvode_batch);
   const CrushResponses record = run(models, ManyIntegrator::cvode);
-  // The stiffest swing has a period of some ms, so that the error of t_m is a larger part of it.
-  for (const double error : differences(batch, record)) EXPECT_LE(error, 1e-5);
+  for (const double error : differences(batch, record)) EXPECT_LE(error, kSteep);
   EXPECT_TRUE(std::isnan(batch.metrics[2].static_crush_m)) << "never out of contact";
 }
 
