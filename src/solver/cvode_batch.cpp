@@ -278,6 +278,7 @@ void CvodeBatch::examine(std::size_t index, const LaneWork& work, std::vector<st
   state.region = region_at_start(problem, std::isnan(state.summary.t_m_s), step);
   bool is_over = false;
   for (int events = 0; !is_over && events < kMostEvents; ++events) {
+    step.set_ends();
     const Event event = first_event(problem, state.region, step);
     if (event.kind == EventKind::none) break;
     step.from = event.tau;
