@@ -23,7 +23,7 @@ std::uint64_t block_size(const SamplePlan& plan) {
   if (is_crush_alone(plan)) return kCrushAlone;
   return is_whole_chain(plan) ? kWholeChain : kMotion;
 }
-constexpr std::string_view kInvalidInput = "invalid_input";
+constexpr std::string_view kInvalidInput = "invalid_input", kNumericalFailure = "numerical_failure";
 
 /// Rows of consecutive samples.
 struct Block {
@@ -60,6 +60,9 @@ bool append_sample(const SamplePlan& plan, std::uint64_t sample, const std::atom
     result = run_sample(plan, inputs, stop);
     outcome = outcome_of(result);
   } catch (const InvalidInput&) {
+    result = {};
+  } catch (const NumericalFailure&) {
+    outcome = kNumericalFailure;
     result = {};
   }
   if (stop && is_interrupted(result)) return false;

@@ -35,7 +35,7 @@ std::vector<double> sample_inputs(const SampleTable& table, std::uint64_t sample
 /// Runs `count` samples from `first` on, fewer where the study ends. A row depends on the plan and its index only.
 /// Where something varies that pulse or identification depend on, a sample is the whole chain; otherwise the model of
 /// `base` is simulated with other numbers. Mass and speed are those of the vehicle simulated: the test stays as it was.
-/// Numbers that a model cannot have make the outcome "invalid_input".
+/// Numbers that a model cannot have make the outcome "invalid_input", what cannot be solved "numerical_failure".
 /// @param progress is told of samples; when it stops them, those that are done are kept.
 SampleTable run_samples(const SamplePlan& plan, std::uint64_t first, std::uint64_t count,
                         const Progress& progress = {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 
 #include "optimize/gauss_newton.hpp"
@@ -97,6 +98,31 @@ int best_of(const std::vector<StartResult>& results) {
   return best;
 }
 
+/// Lets the best start descend to the end of the way. Its report stays that of the start alone, which must not depend
+/// on the others.
+void go_on(const StartPlan& plan, const Progress& progress, StartResult& best) {
+  constexpr auto kLookAround = std::chrono::milliseconds(100);
+  std::atomic<bool> stop{false};
+  StartFunctions functions = plan.make_functions();
+  functions.value = [&, value = functions.value, last = std::chrono::steady_clock::now()](
+                        std::span<const double> point, double smoothing, std::span<double> gradient) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (progress && now - last > kLookAround) {
+      last = now;
+      if (!progress(plan.starts, plan.starts)) stop = true;
+    }
+    return value(point, smoothing, gradient);
+  };
+  StartResult further = best;
+  try {
+    Descent(plan, functions, stop, further).by_nlopt({0.0, kFtolBest});
+  } catch (const Stopped&) {
+    return;
+  }
+  best.parameters = further.parameters;
+  best.further_evaluations = further.report.evaluations - best.report.evaluations;
+}
+
 }  // namespace
 
 std::vector<StartResult> run_starts(const StartPlan& plan, const Progress& progress) {
@@ -119,13 +145,8 @@ std::vector<StartResult> run_starts(const StartPlan& plan, const Progress& progr
         if (progress && !progress(done, count)) stop = true;
         return !stop;
       });
-  if (const int best = best_of(results); best >= 0 && !stop) {
-    StartResult& result = results[static_cast<std::size_t>(best)];
-    const StartReport report = result.report;  // of the start alone: it must not depend on the others
-    Descent(plan, plan.make_functions(), stop, result).by_nlopt({0.0, kFtolBest});
-    result.further_evaluations = result.report.evaluations - report.evaluations;
-    result.report = report;
-  }
+  if (const int best = best_of(results); best >= 0 && !stop)
+    go_on(plan, progress, results[static_cast<std::size_t>(best)]);
   return results;
 }
 

@@ -76,6 +76,7 @@ long CvodeBatch::run(const LaneWork& work, std::vector<std::size_t>& alone) {
     for (; !live_.empty() && cvode_.time() < end && steps < kStepLimit; ++steps) step(work, alone);
   } catch (const SolverError&) {
     steps = kStepLimit;
+    std::erase_if(live_, [&](std::size_t index) { return !models_[index].live; });
   }
   if (has_rows_) write_tile();
   for (const std::size_t index : live_) {

@@ -11,8 +11,8 @@ LaneMotions::LaneMotions(std::span<const double> times_s, double tolerance, Inst
       tolerance_(tolerance),
       kernel_(KernelChoice<LaneKernel>{kLaneKernelBaseline, kLaneKernelAvx2, kLaneKernelAvx512}(set)) {
   times_.resize(samples_ + kMotions, times_s.back());
-  const double spacing =
-      (times_s.back() - times_s.front()) / static_cast<double>(std::max<std::size_t>(samples_, 2) - 1);
+  if (samples_ < 2) return;
+  const double spacing = (times_s.back() - times_s.front()) / static_cast<double>(samples_ - 1);
   for (std::size_t i = 1; i < samples_; ++i)
     if (std::fabs(times_[i] - times_[0] - spacing * static_cast<double>(i)) > spacing) return;
   spacing_s_ = spacing;

@@ -9,7 +9,7 @@ import pickle
 import queue
 from collections import deque
 from collections.abc import Callable, Sequence
-from concurrent.futures import CancelledError, Future, ProcessPoolExecutor
+from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
@@ -88,7 +88,8 @@ def run_batch(
     SystemFailure
         When files cannot be written, or the executor cannot run anything.
     KeyboardInterrupt
-        On Ctrl-C, within a second; what is finished is kept.
+        On Ctrl-C, within a second; what is finished is kept. An executor of yours may still be writing the cases
+        that were running: shut it down before you go on with ``resume=True``.
 
     Examples
     --------
@@ -204,8 +205,10 @@ class _Batch:
         task = Task(case.name, case.path, self._folder.path, self._start, before.to_json() if before else "")
         try:
             future = self._engine.submit(work, tuple(task))
-        except BrokenProcessPool:
+        except BrokenProcessPool as error:
             self._go_on_without_the_pool()
+            if not self._has_own_way():
+                raise _core.SystemFailure(f"the executor is broken: {_text_of(error)}{self._how_to_go_on()}") from error
             future = self._engine.submit(work, tuple(task))
         self._running[future] = index
         future.add_done_callback(self._finished.put)
@@ -222,7 +225,7 @@ class _Batch:
         error = CancelledError("its task was dropped") if future.cancelled() else future.exception()
         if error is None:
             self._read(index, Answer(*future.result()))
-        elif isinstance(error, BrokenProcessPool):  # which case did it, nobody knows: none is blamed
+        elif isinstance(error, BrokenProcessPool) and self._has_own_way():  # which case did it, nobody knows: none is blamed
             self._again.append(index)
             self._go_on_without_the_pool()
         elif isinstance(error, NOT_RUNNABLE) or type(error) is RuntimeError:
@@ -276,6 +279,12 @@ class _Batch:
         self._call_off()
         if isinstance(self._engine, WorkerProcesses):
             self._engine.shutdown(wait=not at_once)
+        elif not at_once:
+            wait(self._running)  # nobody writes any more when the folder is given back
+
+    def _has_own_way(self) -> bool:
+        """Whether the batch can go on when a process pool has broken."""
+        return isinstance(self._engine, ProcessPoolExecutor | WorkerProcesses)
 
     def _go_on_without_the_pool(self) -> None:
         """A process pool of Python is of no use any more once one of its processes has died."""
