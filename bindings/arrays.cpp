@@ -70,6 +70,18 @@ py::array view_of(const RowMatrix& values, const py::handle& owner) {
   return array;
 }
 
+py::array view_of(const std::vector<std::uint64_t>& values, const py::handle& owner) {
+  py::array_t<std::uint64_t> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+std::vector<std::uint64_t> integers_from(const py::handle& object) {
+  std::vector<std::uint64_t> numbers;
+  for (const py::handle item : object.cast<py::iterable>()) numbers.push_back(item.cast<std::uint64_t>());
+  return numbers;
+}
+
 RowMatrix matrix_from(const py::handle& object, const std::string& what) {
   if (object.is_none()) return {};
   const py::array_t<double> array = real_array(object, 2, what);

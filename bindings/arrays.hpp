@@ -1,5 +1,6 @@
 #pragma once
 /// NumPy arrays in and out without copies.
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,6 +45,12 @@ py::array view_of(std::span<const double> values, const py::handle& owner);
 
 /// The same of two dimensions.
 py::array view_of(const RowMatrix& values, const py::handle& owner);
+
+/// The same of whole numbers.
+py::array view_of(const std::vector<std::uint64_t>& values, const py::handle& owner);
+
+/// A copy of whole numbers >= 0. @throws py::cast_error when they are none.
+std::vector<std::uint64_t> integers_from(const py::handle& object);
 
 /// A copy of a two-dimensional array that a caller gave, of its shape (0, 0) for None.
 /// @throws InvalidInput naming `what` when it is not two-dimensional, TypeError when it holds no real numbers.

@@ -98,6 +98,7 @@ void bind_case_classes(py::module_& module) {
       .field("coupled", &CaseResult::coupled, "CoupledResponse, or None.")
       .field("predictions", &CaseResult::predictions, "A Prediction each.")
       .field("comparisons", &CaseResult::comparisons, "A NamedComparison each.")
+      .field("samples", &CaseResult::samples, "SampleTable of ``[sweep]`` or ``[monte_carlo]``, or None.")
       .field("input_files", &CaseResult::input_files, "Every file read.")
       .field("notes", &CaseResult::notes, "What the case did not say and was taken from elsewhere.")
       .def_property_readonly("usable", &CaseResult::usable, "True when every step gave a result to rely on.")

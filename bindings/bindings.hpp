@@ -21,7 +21,9 @@ void bind_pitch_identify(py::module_& module);
 void bind_vertical(py::module_& module);
 void bind_coupled(py::module_& module);
 void bind_design(py::module_& module);
+void bind_samples(py::module_& module);
 void bind_case(py::module_& module);
+void bind_sweep(py::module_& module);
 void bind_batch(py::module_& module);
 void bind_files(py::module_& module);
 

@@ -49,7 +49,9 @@ PYBIND11_MODULE(_core, module) {
   bind_vertical(module);
   bind_coupled(module);
   bind_design(module);
+  bind_samples(module);
   bind_case(module);
+  bind_sweep(module);
   bind_batch(module);
   bind_files(module);
   list_public_names(module);

@@ -90,6 +90,8 @@ py::object to_python(const T& value, const py::handle& owner) {
     return py::str(std::string(name_of(value)));
   } else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, RowMatrix>) {
     return view_of(value, owner);
+  } else if constexpr (std::is_same_v<T, std::vector<std::uint64_t>>) {
+    return view_of(value, owner);
   } else if constexpr (is_summary<T>) {
     return dict_of(value);
   } else if constexpr (is_enum_vector<T>) {
@@ -145,6 +147,8 @@ T from_python(const py::handle& object, const std::string& what) {
       return Doubles(object, what).copy();
     } else if constexpr (std::is_same_v<T, RowMatrix>) {
       return matrix_from(object, what);
+    } else if constexpr (std::is_same_v<T, std::vector<std::uint64_t>>) {
+      return integers_from(object);
     } else if constexpr (std::is_same_v<T, Summary>) {
       return summary_from(object);
     } else if constexpr (std::is_same_v<T, SummaryParts>) {
@@ -194,6 +198,8 @@ std::string type_name() {
   } else if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, std::vector<std::vector<double>>> ||
                        std::is_same_v<T, SharedTimes> || std::is_same_v<T, RowMatrix>) {
     return "Array";
+  } else if constexpr (std::is_same_v<T, std::vector<std::uint64_t>>) {
+    return "NDArray[numpy.uint64]";
   } else if constexpr (is_enum_vector<T>) {
     return "NDArray[numpy.str_]";
   } else if constexpr (std::is_same_v<T, Summary>) {

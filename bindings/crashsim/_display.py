@@ -93,7 +93,7 @@ def _to_dataframe(self: Any) -> Any:
         import pandas
     except ImportError as error:
         raise ImportError("to_dataframe() needs pandas: pip install pandas") from error
-    columns: dict[str, Any] = dict(columns_of(self))
+    columns: dict[str, Any] = self._table() if hasattr(self, "_table") else dict(columns_of(self))
     if not columns and hasattr(self, "ordinates"):
         columns = {name: [getattr(row, name) for row in self.ordinates] for name in _ordinate_fields(self)}
     if not columns:

@@ -39,6 +39,10 @@ TOPICS = {
     ),
     "Measured motion of the body": "read_motion body_motion BodyStation BodyMotion MeasuredMotion",
     "Studies": "run_case read_case find_record summarize report Case CaseResult Prediction",
+    "Sweeps and Monte Carlo": (
+        "plan_samples run_samples join_samples SampleTable SamplePlan SampleSummary SampleOutput SampleEffect "
+        "SobolIndex SampleStatistics SampleInput SampleDesign Distribution"
+    ),
     "Many cases": (
         "run_batch plan_batch merge_batches run_batch_case is_batch_case_done batch_row_from_json "
         "BatchReport BatchRow BatchCase BatchFolder StageTimes RayExecutor"
