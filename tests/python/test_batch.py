@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
@@ -240,12 +241,21 @@ class Failing(Executor):
         return future
 
 
+class Broken(Executor):
+    """A pool that is not Python's own and takes nothing any more."""
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        raise BrokenProcessPool("gone")
+
+
 def test_an_executor_that_cannot_run_cases_says_so(tmp_path: Path) -> None:
     with pytest.raises(crashsim.SystemFailure, match="cannot run cases: ModuleNotFoundError: crashsim; 0 of 16 cases"):
         crashsim.run_batch("in/*.toml", tmp_path / "a", executor=Failing(ModuleNotFoundError("crashsim")))
     report = crashsim.run_batch("in/c00.toml", tmp_path / "b", executor=Failing(ConnectionError("gone")), retries=2)
     assert report.retried == 2
     assert report.failures[0].message == "its worker was lost 3 times: ConnectionError: gone: is there memory enough?"
+    with pytest.raises(crashsim.SystemFailure, match="the executor is broken: BrokenProcessPool: gone; 0 of 16 cases"):
+        crashsim.run_batch("in/*.toml", tmp_path / "d", executor=Broken())
     with pytest.raises(TypeError, match="executor: must have submit"):
         crashsim.run_batch("in/*.toml", tmp_path / "c", executor="dask")
 

@@ -225,8 +225,8 @@ class _Batch:
         error = CancelledError("its task was dropped") if future.cancelled() else future.exception()
         if error is None:
             self._read(index, Answer(*future.result()))
-        elif isinstance(error, BrokenProcessPool) and self._has_own_way():  # which case did it, nobody knows: none is blamed
-            self._again.append(index)
+        elif isinstance(error, BrokenProcessPool) and self._has_own_way():
+            self._again.append(index)  # which case did it, nobody knows: none is blamed
             self._go_on_without_the_pool()
         elif isinstance(error, NOT_RUNNABLE) or type(error) is RuntimeError:
             raise _core.SystemFailure(
