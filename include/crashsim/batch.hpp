@@ -60,7 +60,7 @@ BatchRow batch_row_from_json(std::string_view text);
 /// The unit of work: runs one case with one thread and writes its files to `folder`/cases/NAME, whole or not at all, in
 /// place of earlier ones. What fails in the case is told by the row; then there are no files, except where only the
 /// numbers failed. Depends on nothing but the files: runs in any process that sees them.
-/// @throws SystemFailure when the files cannot be written.
+/// @throws SystemFailure when the files cannot be written, InvalidInput when the name would lead out of the folder.
 BatchRow run_batch_case(const BatchCase& what, const std::string& folder);
 
 /// Whether `done` is what running the case would give: same options, inputs and version, and its files are all there.
@@ -106,6 +106,7 @@ struct BatchReport {
 
 /// Runs cases on worker processes: forks, so call it before threads are started. Writes to `folder`: cases/NAME each,
 /// results.csv and results.jsonl with a row each in the order of the plan, timings.csv, batch.json.
+/// When a failed case stops it, the tables hold the cases done or found to be done until then, none of an earlier run.
 /// Killed at any moment it loses at most what runs: with `resume` it goes on to the same bytes.
 /// @throws InvalidInput when the folder holds results already (without `resume`), other things, or another shard, or is
 ///         in use; SystemFailure when it cannot be written.

@@ -16,7 +16,8 @@ namespace crashsim {
 class BatchFolder {
  public:
   /// Makes the folder or, with `options.resume`, goes on in it; clears what a killed batch left half done.
-  /// @throws InvalidInput when it holds results (without `resume`), other things or another shard, or is in use;
+  /// @throws InvalidInput when a name is no single one or there twice, or the folder holds results (without `resume`),
+  /// other things or another shard, or is in use;
   ///         SystemFailure when it cannot be written.
   BatchFolder(const std::string& path, const std::vector<BatchCase>& plan, const BatchOptions& options);
   ~BatchFolder();
@@ -35,8 +36,10 @@ class BatchFolder {
   /// @throws SystemFailure when it cannot be written.
   void record(std::size_t index, const BatchRow& row);
 
-  /// Writes results.csv, results.jsonl and timings.csv of the rows there are. @throws SystemFailure
-  void write_tables() const;
+  /// Writes results.csv, results.jsonl and timings.csv of the rows there are, also of an earlier run.
+  /// @param of a flag for each of cases(): rows of these only, as when a run was stopped that has not looked whether
+  ///        the others still hold; empty: all. @throws SystemFailure
+  void write_tables(const std::vector<bool>& of = {}) const;
 
  private:
   struct Content;

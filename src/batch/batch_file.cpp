@@ -6,6 +6,7 @@
 #include <crashsim/files.hpp>
 #include <crashsim/version.hpp>
 
+#include "batch/case_name.hpp"
 #include "json.hpp"
 #include "sha256.hpp"
 #include "text.hpp"
@@ -55,6 +56,7 @@ std::vector<BatchCase> parse_plan(const std::string& text, const std::string& pa
       throw InvalidInput(fmt::format("{}: is damaged: run the batch again with --resume", path));
     plan.push_back({pair[0].get<std::string>(), pair[1].get<std::string>()});
   }
+  check_plan(plan, path + ": ");
   return plan;
 }
 

@@ -31,7 +31,7 @@ std::string to_json(const BatchIdentity& identity);
 /// Every count-th case of a plan, from the index-th on.
 std::vector<BatchCase> shard_of(const std::vector<BatchCase>& plan, const BatchShard& shard);
 
-/// A plan as text, a case a line, and back. @throws InvalidInput naming `path` when it is damaged.
+/// A plan as text, a case a line, and back. @throws InvalidInput naming `path` when it is damaged, or see check_plan().
 std::string format_plan(const std::vector<BatchCase>& plan);
 std::vector<BatchCase> parse_plan(const std::string& text, const std::string& path);
 

@@ -12,6 +12,7 @@
 
 #include "batch/batch_file.hpp"
 #include "batch/case_folder.hpp"
+#include "batch/case_name.hpp"
 #include "batch/folder_lock.hpp"
 #include "batch/journal.hpp"
 #include "batch/tables.hpp"
@@ -38,11 +39,13 @@ Folder open_or_make(const std::string& path) {
   return folder;
 }
 
-/// Writes a file in place of an earlier one, whole or not at all.
+/// Writes a file in place of an earlier one, whole or not at all, also when the power goes.
 void replace(const Folder& folder, const Folder& half_done, const std::string& name, std::string_view text) {
   half_done.remove(name);
   half_done.write(name, text);
+  half_done.sync(name);
   half_done.move(name, folder, name);
+  folder.sync();
 }
 
 }  // namespace
@@ -101,8 +104,10 @@ struct BatchFolder::Content {
   std::optional<Folder> half_done;
 };
 
-BatchFolder::BatchFolder(const std::string& path, const std::vector<BatchCase>& plan, const BatchOptions& options)
-    : content_(std::make_unique<Content>(path, plan, parse_shard(options.shard), options.resume)) {}
+BatchFolder::BatchFolder(const std::string& path, const std::vector<BatchCase>& plan, const BatchOptions& options) {
+  batch::check_plan(plan, "");
+  content_ = std::make_unique<Content>(path, plan, parse_shard(options.shard), options.resume);
+}
 
 BatchFolder::~BatchFolder() = default;
 
@@ -126,7 +131,7 @@ void BatchFolder::record(std::size_t index, const BatchRow& row) {
   content_->offsets[index] = content_->journal.append(to_json(row));
 }
 
-void BatchFolder::write_tables() const {
+void BatchFolder::write_tables(const std::vector<bool>& of) const {
   using Line = std::string (*)(const BatchRow&);
   struct Table {
     const char* name;
@@ -143,7 +148,7 @@ void BatchFolder::write_tables() const {
     table.file->append(table.header);
   }
   for (std::size_t i = 0; i < cases().size(); ++i)
-    if (const auto row = row_of(i))
+    if (const auto row = of.empty() || of.at(i) ? row_of(i) : std::nullopt)
       for (const Table& table : tables) table.file->append(table.line(*row));
   for (const Table& table : tables) {
     table.file->close();

@@ -5,14 +5,15 @@
 #include <fmt/format.h>
 
 #include <crashsim/error.hpp>
+#include <crashsim/sweep.hpp>
 
 namespace crashsim::batch {
 namespace {
 
 /// Files that a case leaves behind, whatever it asked for.
 bool is_of_case(std::string_view name) {
-  constexpr std::string_view kFiles[] = {"pulse.csv",   "model.json",      "response.csv", "pitch.csv",
-                                         "coupled.csv", "comparison.json", "summary.json", "case.lock.json"};
+  constexpr std::string_view kFiles[] = {"pulse.csv",       "model.json", "response.csv", "pitch.csv",  "coupled.csv",
+                                         "comparison.json", kSamples,     kSampleSummary, kCaseSummary, kCaseRecord};
   return std::find(std::begin(kFiles), std::end(kFiles), name) != std::end(kFiles) ||
          (name.starts_with("prediction_") && name.ends_with(".csv"));
 }

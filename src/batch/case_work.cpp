@@ -11,8 +11,10 @@
 #include <crashsim/error.hpp>
 #include <crashsim/messages.hpp>
 #include <crashsim/outputs.hpp>
+#include <crashsim/sweep.hpp>
 
 #include "batch/case_folder.hpp"
+#include "batch/case_name.hpp"
 #include "case_sections.hpp"
 #include "sha256.hpp"
 #include "stage_clock.hpp"
@@ -52,6 +54,12 @@ void blame_first(const CaseResult& result, BatchRow& row) {
       row.message = fmt::format("prediction at {}: {}", prediction.name, row.message);
       return;
     }
+  if (result.samples && !result.samples->usable()) {
+    const std::vector<std::string>& outcomes = result.samples->outcomes;
+    row.outcome = outcomes.empty() ? std::string(kNumericalFailure) : outcomes.front();
+    row.message = fmt::format("none of the {} samples completed: the first ended as {}: see {}",
+                              result.samples->planned, row.outcome, kSamples);
+  }
 }
 
 void tell_results(const CaseResult& result, BatchRow& row) {
@@ -96,6 +104,7 @@ std::vector<FileText> compute(const BatchCase& what, StageClock& clock, BatchRow
 }  // namespace
 
 BatchRow run_batch_case(const BatchCase& what, const std::string& folder) {
+  batch::check_case(what, "");
   BatchRow row;
   row.name = what.name;
   StageClock whole, clock;
@@ -116,6 +125,7 @@ BatchRow run_batch_case(const BatchCase& what, const std::string& folder) {
 bool is_batch_case_done(const BatchCase& what, const std::string& folder, const BatchRow& done) {
   if (done.identity.empty()) return false;
   try {
+    batch::check_case(what, "");
     const Case study = read_study(what.path);
     const std::string record =
         (std::filesystem::path(folder) / batch::kCases / what.name / batch::kCaseRecord).string();

@@ -117,6 +117,18 @@ void Folder::write(const std::string& name, std::string_view text) const {
   file.close();
 }
 
+void Folder::sync(const std::string& name) const {
+  const int fd = open_file(name, O_RDONLY);
+  const int error = ::fsync(fd) == 0 ? 0 : errno;
+  ::close(fd);
+  if (error != 0) fail(name, "written", error);
+}
+
+void Folder::sync() const {
+  if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP)  // not every file system does it for folders
+    fail_at(path_, "written", errno);
+}
+
 void Folder::move(const std::string& name, const Folder& to, const std::string& new_name) const {
   if (::renameat(fd_, name.c_str(), to.fd_, new_name.c_str()) != 0) to.fail(new_name, "put in place", errno);
 }

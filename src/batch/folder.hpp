@@ -42,6 +42,9 @@ class Folder {
   [[nodiscard]] std::string read(const std::string& name) const;
   /// Writes a file that is not there yet.
   void write(const std::string& name, std::string_view text) const;
+  /// Makes a file, or which names this folder has, last through a power cut.
+  void sync(const std::string& name) const;
+  void sync() const;
   /// Moves a file or folder; a file of that name is replaced.
   void move(const std::string& name, const Folder& to, const std::string& new_name) const;
   /// Removes a file, link or folder with all that is in it; nothing when it is not there.

@@ -75,6 +75,9 @@ FolderLock::FolderLock(const Folder& folder, const std::string& what) : fd_(fold
   }
 }
 
-FolderLock::~FolderLock() { ::close(fd_); }
+FolderLock::~FolderLock() {
+  ::flock(fd_, LOCK_UN);  // a child that was forked meanwhile may hold the descriptor a little longer
+  ::close(fd_);
+}
 
 }  // namespace crashsim::batch

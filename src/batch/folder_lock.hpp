@@ -7,7 +7,7 @@
 
 namespace crashsim::batch {
 
-/// Holds a folder's lock while it, or a process forked meanwhile, lives.
+/// Holds a folder's lock while it lives; when its process is killed, until those that it forked are gone, too.
 class FolderLock {
  public:
   /// @param what of the folder, for messages: its path.

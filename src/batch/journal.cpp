@@ -57,6 +57,7 @@ class Lines {
 
 Journal::Journal(const Folder& folder, const Visit& visit)
     : path_(folder.path_of(kJournal)), fd_(folder.open_file(kJournal, O_RDWR | O_CREAT)) {
+  folder.sync();
   Lines lines(fd_);
   for (std::string_view line = lines.next(); line.ends_with('\n'); line = lines.next()) {
     if (const std::string_view text = sound_text(line.substr(0, line.size() - 1)); !text.empty()) visit(end_, text);

@@ -66,6 +66,8 @@ class Shard {
     return files;
   }
 
+  [[nodiscard]] std::uint64_t bytes_of(const std::string& name) const { return batch::case_bytes(folder_, name); }
+
  private:
   static Folder open(const std::string& path) {
     if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{}: no such folder", path));
@@ -130,6 +132,14 @@ std::vector<BatchCase> joined_plan(const std::vector<std::unique_ptr<Shard>>& sh
   return plan;
 }
 
+/// Refuses files that are not those the row tells of; others that lie beside them do not count.
+void check_size(const Shard& shard, const BatchRow& row) {
+  if (const std::uint64_t bytes = shard.bytes_of(row.name); bytes != row.bytes)
+    throw InvalidInput(fmt::format(
+        "{}: the files of case '{}' have {} bytes, not the {} that were written: run the shard again with --resume",
+        shard.path(), row.name, bytes, row.bytes));
+}
+
 /// Copies what the shards have into a new folder.
 BatchReport join(const std::vector<std::unique_ptr<Shard>>& shards, const std::string& path) {
   StageClock clock;
@@ -144,6 +154,7 @@ BatchReport join(const std::vector<std::unique_ptr<Shard>>& shards, const std::s
     if (!row.identity.empty() && files.empty())
       throw InvalidInput(fmt::format("{}: the files of case '{}' are gone: run the shard again with --resume",
                                      shard.path(), row.name));
+    if (!row.identity.empty()) check_size(shard, row);
     if (!row.identity.empty()) batch::put_case_files(folder, row.name, files);
     whole.record(i, row);
     ++report.done;

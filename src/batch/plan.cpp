@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <string_view>
 
 #include <glob.h>
 
@@ -12,6 +14,8 @@
 #include <crashsim/error.hpp>
 #include <crashsim/files.hpp>
 
+#include "batch/case_name.hpp"
+#include "json.hpp"
 #include "text.hpp"
 
 namespace crashsim {
@@ -47,18 +51,6 @@ std::string name_of_case(const fs::path& path) {
   if (name != "case" && name != "case.lock") return name;
   const std::string folder = fs::absolute(path).lexically_normal().parent_path().filename().string();
   return folder.empty() ? name : folder;
-}
-
-void check_name(const std::string& name, const std::string& where) {
-  constexpr std::size_t kLongest = 200;
-  const auto is_unfit = [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
-  if (!name.empty() && name.size() <= kLongest && name.front() != '.' &&
-      std::none_of(name.begin(), name.end(), is_unfit))
-    return;
-  throw InvalidInput(
-      fmt::format("{}'{:.60}': is no name for the folder of a case: it must have 1 to {} bytes, no '/' and "
-                  "no control character, and not start with '.'; name the case in a manifest: name = file",
-                  where, name, kLongest));
 }
 
 class Plan {
@@ -119,7 +111,7 @@ class Plan {
   }
 
   void add(const BatchCase& found, const std::string& where) {
-    check_name(found.name, where);
+    batch::check_case(found, where);
     const auto [other, is_new] = named_.emplace(found.name, cases_.size());
     if (!is_new) {
       const std::string& first = cases_[other->second].path;
@@ -137,6 +129,44 @@ class Plan {
 };
 
 }  // namespace
+
+namespace batch {
+namespace {
+
+/// A text as JSON can hold it, with marks for what is not UTF-8.
+std::string as_utf8(const std::string& text) {
+  const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json::parse(quoted).get<std::string>();
+}
+
+}  // namespace
+
+void check_case(const BatchCase& one, const std::string& where) {
+  constexpr std::size_t kLongest = 200;
+  for (const std::string& text : {one.name, one.path})
+    if (const std::string shown = as_utf8(text); shown != text)
+      throw InvalidInput(
+          fmt::format("{}'{:.200}': is not UTF-8, as the files of a batch are: rename it", where, shown));
+  const auto is_unfit = [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  if (!one.name.empty() && one.name.size() <= kLongest && one.name.front() != '.' &&
+      std::none_of(one.name.begin(), one.name.end(), is_unfit))
+    return;
+  throw InvalidInput(
+      fmt::format("{}'{:.60}': is no name for the folder of a case: it must have 1 to {} bytes, no '/' and "
+                  "no control character, and not start with '.'; name the case in a manifest: name = file",
+                  where, one.name, kLongest));
+}
+
+void check_plan(const std::vector<BatchCase>& plan, const std::string& where) {
+  std::set<std::string_view> names;
+  for (const BatchCase& one : plan) {
+    check_case(one, where);
+    if (!names.insert(one.name).second)
+      throw InvalidInput(fmt::format("{}'{}': is the name of two cases: rename one", where, one.name));
+  }
+}
+
+}  // namespace batch
 
 std::vector<BatchCase> plan_batch(const std::vector<std::string>& arguments) {
   Plan plan;

@@ -73,6 +73,7 @@ class BatchRun {
            const BatchWatcher& watcher)
       : folder_(path, plan, options), options_(options), watcher_(watcher) {
     report_.total = folder_.cases().size();
+    counted_.resize(report_.total);
     report_.left_over = folder_.left_over();
   }
 
@@ -87,7 +88,7 @@ class BatchRun {
                            [this](std::size_t index, const std::string& text) { finish(index, text); },
                            [this](std::size_t index, const WorkerEnd& end) { mourn(index, end); },
                            [this] { return !stops_ && tell({}); }});
-    if (!report_.interrupted) folder_.write_tables();
+    if (!report_.interrupted) folder_.write_tables(counted_);
     for (auto& [index, row] : failures_) report_.failures.push_back(std::move(row));
     report_.seconds = clock_.lap();
     if (report_.failed > 0 && report_.exit_code == 0) report_.exit_code = kNumbersFailed;
@@ -166,6 +167,7 @@ class BatchRun {
 
   void count(std::size_t index, const BatchRow& row) {
     ++report_.done;
+    counted_[index] = true;
     if (!row.failed()) return;
     ++report_.failed;
     failures_.emplace(index, row);
@@ -193,6 +195,7 @@ class BatchRun {
   std::map<std::size_t, BatchRow> failures_;  ///< The first few.
   std::deque<std::size_t> again_;
   std::set<std::size_t> retried_;
+  std::vector<bool> counted_;  ///< Of each case: done, or found to be.
   std::size_t next_ = 0;
   bool stops_ = false;
 };

@@ -12,6 +12,7 @@
 #include <crashsim/error.hpp>
 #include <crashsim/files.hpp>
 
+#include "batch/batch_file.hpp"
 #include "batch/workers.hpp"
 #include "support/source_dir.hpp"
 #include "support/temp_dir.hpp"
@@ -19,7 +20,9 @@
 namespace crashsim {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::SizeIs;
 using testing::ThrowsMessage;
 
@@ -103,6 +106,73 @@ TEST_F(BatchFolders, BelongToOneAtATime) {
   const BatchFolder batch(folder, plan, {});
   EXPECT_THAT([&] { const BatchFolder second(folder, plan, {}); },
               ThrowsMessage<InvalidInput>(HasSubstr("is in use by")));
+}
+
+TEST_F(BatchFolders, KnowSampledCasesAgain) {
+  write_file_atomically(dir.path("s.toml"),
+                        "[crush]\nmodel = \"" + data +
+                            "neon-kw400/model.json\"\n[sweep]\n"
+                            "impact.speed = [\"40 km/h\", \"48 km/h\"]\n",
+                        false);
+  plan = {{"s", dir.path("s.toml")}};
+  ASSERT_EQ(run_batch(plan, folder).exit_code, 0);
+  ASSERT_THAT(read_file(folder + "/cases/s/sweep.json"), HasSubstr("outcomes"));
+  BatchOptions options;
+  options.resume = true;
+  EXPECT_EQ(run_batch(plan, folder, options).unchanged, 1u);
+  write_file_atomically(dir.path("s.toml"), "nonsense", true);  // whose files are removed
+  EXPECT_EQ(run_batch(plan, folder, options).exit_code, 2);
+  EXPECT_THROW((void)read_file(folder + "/cases/s/sweep.json"), InvalidInput);
+}
+
+TEST_F(BatchFolders, TellWhenNoSampleCompletes) {
+  write_file_atomically(dir.path("s.toml"),
+                        "[crush]\nmodel = \"" + data +
+                            "neon-kw400/model.json\"\n[sweep]\n"
+                            "crush.k2 = [\"-1 N\"]\n",
+                        false);
+  const BatchFolder batch(folder, {{"s", dir.path("s.toml")}}, {});
+  const BatchRow row = run_batch_case(batch.cases()[0], folder);
+  EXPECT_EQ(row.outcome, "invalid_input");
+  EXPECT_EQ(row.exit_code, 3);
+  EXPECT_THAT(row.message, HasSubstr("none of the 1 samples completed: the first ended as invalid_input"));
+}
+
+TEST_F(BatchFolders, HoldNoCaseWhoseNameLeadsOut) {
+  const auto refused = [](const char* what) { return ThrowsMessage<InvalidInput>(HasSubstr(what)); };
+  for (const char* name : {"../../x", "..", ".", "a/b", ""}) {
+    const BatchCase bad{name, plan[0].path};
+    EXPECT_THAT([&] { const BatchFolder batch(folder, {bad}, {}); }, refused("': is no name for the folder of a case"));
+    EXPECT_THAT([&] { (void)run_batch_case(bad, folder); }, refused("': is no name for the folder of a case"));
+    EXPECT_THAT([&] { (void)batch::parse_plan(batch::format_plan({bad}), "s/plan"); }, refused("s/plan: '"));
+  }
+  EXPECT_THAT([&] { const BatchFolder batch(folder, {{"caf\xe9", "x.toml"}}, {}); }, refused("is not UTF-8"));
+  EXPECT_THAT(
+      [&] {
+        const BatchFolder batch(folder, {plan[0], plan[0]}, {});
+      },
+      refused("'a': is the name of two cases"));
+}
+
+TEST_F(BatchFolders, TellNothingOfAnEarlierRunWhenTheyAreStopped) {
+  plan = {{"b", dir.path("b.toml")}, {"a", data + "neon-kw400/case.toml"}};
+  write_file_atomically(plan[0].path, "[crush]\nmodel = \"" + data + "neon-kw400/model.json\"\n", false);
+  BatchOptions options;
+  options.resume = true;
+  options.jobs = 1;
+  ASSERT_EQ(run_batch(plan, folder, options).exit_code, 0);
+  write_file_atomically(plan[0].path, "nonsense", true);
+  const BatchReport stopped = run_batch(plan, folder, options);
+  EXPECT_EQ(stopped.done, 1u);
+  EXPECT_THAT(read_file(folder + "/results.csv"), AllOf(HasSubstr("\nb,invalid_input,"), Not(HasSubstr("\na,"))));
+}
+
+TEST_F(BatchFolders, AreNotJoinedWhenFilesHaveChanged) {
+  plan.resize(1);
+  ASSERT_EQ(run_batch(plan, folder).exit_code, 0);
+  write_file_atomically(folder + "/cases/a/summary.json", "{}", true);
+  EXPECT_THAT([&] { (void)merge_batches({folder}, dir.path("joined")); },
+              ThrowsMessage<InvalidInput>(HasSubstr("the files of case 'a' have ")));
 }
 
 TEST_F(BatchFolders, StopAskingAWatcherThatSaysNo) {
