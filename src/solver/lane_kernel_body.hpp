@@ -61,7 +61,7 @@ CRASHSIM_INLINE D rough_exp2(const D& y) {
   const D shifted = y + 0x1.8p52;  // rounds to an integer
   const D f = y - (shifted - 0x1.8p52);
   const I bits = __builtin_bit_cast(I, shifted) << 52;
-  const D mantissa = 1.0 + f * (0.6931 + f * 0.2402);
+  const D mantissa = 1.0 + f * (0.7 + f * 0.23);
   const I scaled = __builtin_bit_cast(I, mantissa) + bits;
   return __builtin_bit_cast(D, scaled);
 }
