@@ -67,6 +67,11 @@ std::vector<std::string> Folder::names() const {
   const int fd = ::openat(fd_, ".", kFolderFlags);  // a position of its own
   if (fd < 0) fail_at(path_, "read", errno);
   const std::unique_ptr<DIR, CloseDirectory> directory(::fdopendir(fd));
+  if (!directory) {
+    const int error = errno;
+    ::close(fd);
+    fail_at(path_, "read", error);
+  }
   std::vector<std::string> names;
   while (const dirent* entry = ::readdir(directory.get())) {
     const std::string name = entry->d_name;
@@ -144,6 +149,10 @@ void Folder::remove(const std::string& name) const {
 FileWriter::FileWriter(const Folder& folder, const std::string& name) : path_(folder.path_of(name)) {
   const int fd = folder.open_file(name, O_WRONLY | O_CREAT | O_EXCL);
   file_ = ::fdopen(fd, "wb");
+  if (file_ != nullptr) return;
+  const int error = errno;
+  ::close(fd);
+  fail(error);
 }
 
 FileWriter::~FileWriter() {

@@ -33,7 +33,14 @@ std::string_view sound_text(std::string_view line) {
 /// Reads lines of a descriptor, with memory for one.
 class Lines {
  public:
-  explicit Lines(int fd) : file_(::fdopen(::dup(fd), "rb")) {}
+  Lines(int fd, const std::string& path) {
+    const int own = ::fcntl(fd, F_DUPFD_CLOEXEC, 0);
+    file_ = own < 0 ? nullptr : ::fdopen(own, "rb");
+    if (file_ != nullptr) return;
+    const int error = errno;
+    if (own >= 0) ::close(own);
+    throw SystemFailure(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
+  }
   ~Lines() {
     std::fclose(file_);
     std::free(line_);  // NOLINT(cppcoreguidelines-no-malloc): getline's own
@@ -48,7 +55,7 @@ class Lines {
   }
 
  private:
-  std::FILE* file_;
+  std::FILE* file_ = nullptr;
   char* line_ = nullptr;
   std::size_t capacity_ = 0;
 };
@@ -57,8 +64,17 @@ class Lines {
 
 Journal::Journal(const Folder& folder, const Visit& visit)
     : path_(folder.path_of(kJournal)), fd_(folder.open_file(kJournal, O_RDWR | O_CREAT)) {
-  folder.sync();
-  Lines lines(fd_);
+  try {
+    folder.sync();
+    find_lines(visit);
+  } catch (...) {
+    ::close(fd_);
+    throw;
+  }
+}
+
+void Journal::find_lines(const Visit& visit) {
+  Lines lines(fd_, path_);
   for (std::string_view line = lines.next(); line.ends_with('\n'); line = lines.next()) {
     if (const std::string_view text = sound_text(line.substr(0, line.size() - 1)); !text.empty()) visit(end_, text);
     end_ += line.size();

@@ -28,6 +28,8 @@ class Journal {
   [[nodiscard]] std::string at(std::uint64_t offset) const;
 
  private:
+  void find_lines(const Visit& visit);
+
   std::string path_;
   int fd_;
   std::uint64_t end_ = 0;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <unordered_map>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -86,8 +88,29 @@ class Shard {
   std::unique_ptr<batch::Journal> journal_;
 };
 
+/// Shards stay open while they are joined, some descriptors each: as many as the system allows.
+void allow_many_files() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);  // where it is refused, opening a file tells
+}
+
+/// Refuses a folder that is named twice, also by another path.
+void check_named_once(const std::vector<std::string>& paths) {
+  std::map<fs::path, std::string> named;
+  for (const std::string& path : paths) {
+    std::error_code ignored;  // opening it tells
+    const auto [other, is_new] = named.emplace(fs::weakly_canonical(path, ignored), path);
+    if (!is_new && !ignored)
+      throw InvalidInput(fmt::format("{} and {}: are the same folder: leave one out", other->second, path));
+  }
+}
+
 /// The shards in their order. @throws InvalidInput unless they are all of one batch, each once.
 std::vector<std::unique_ptr<Shard>> open_shards(const std::vector<std::string>& paths) {
+  check_named_once(paths);
+  allow_many_files();
   std::vector<std::unique_ptr<Shard>> shards;
   for (const std::string& path : paths) {
     auto shard = std::make_unique<Shard>(path);

@@ -29,6 +29,7 @@ namespace crashsim::batch {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr int kNotLimited = 125;                       // exit code of a worker whose memory could not be limited
 constexpr std::chrono::milliseconds kLookAround{100};  // how often the caller is asked whether to go on
 
 /// Sends all of a text; false when nobody listens.
@@ -50,10 +51,14 @@ bool receive(int socket, std::string& text) {
   return got > 0 || (got < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
-void limit_memory(double bytes) {
-  if (bytes <= 0.0) return;
-  const rlimit limit{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
-  ::setrlimit(RLIMIT_AS, &limit);
+/// Limits the address space of this process, below a limit that it has already. False when the system refuses.
+bool limit_memory(double bytes) {
+  if (bytes <= 0.0) return true;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0) return false;
+  if (bytes >= static_cast<double>(limit.rlim_max)) return true;  // also what no rlim_t holds
+  limit.rlim_cur = limit.rlim_max = static_cast<rlim_t>(bytes);
+  return ::setrlimit(RLIMIT_AS, &limit) == 0;
 }
 
 /// The life of a worker: tasks come as numbers, a line each; results go back as lines.
@@ -68,7 +73,9 @@ void limit_memory(double bytes) {
     std::size_t task = 0;
     std::from_chars(text.data(), text.data() + end, task);
     text.erase(0, end + 1);
-    if (!send_all(socket, tasks.work(task) + "\n")) ::_exit(0);
+    std::string result = tasks.work(task);
+    std::replace(result.begin(), result.end(), '\n', ' ');  // a line it is, whatever a message says
+    if (!send_all(socket, result + "\n")) ::_exit(0);
   }
 }
 
@@ -129,8 +136,11 @@ class Pool {
     if (worker.pid == 0) become_worker(parent, ends[0], ends[1]);
     const int error = errno;
     ::close(ends[1]);
+    if (worker.pid < 0) {
+      ::close(ends[0]);
+      throw SystemFailure(fmt::format("no worker process can be made: {}", std::strerror(error)));
+    }
     worker.socket = ends[0];
-    if (worker.pid < 0) throw SystemFailure(fmt::format("no worker process can be made: {}", std::strerror(error)));
   }
 
   [[noreturn]] void become_worker(::pid_t parent, int others_end, int own_end) const {
@@ -143,7 +153,7 @@ class Pool {
     for (const Worker& other : workers_)
       if (other.socket >= 0) ::close(other.socket);
     ::close(others_end);
-    limit_memory(limits_.memory_b);
+    if (!limit_memory(limits_.memory_b)) ::_exit(kNotLimited);
     live(own_end, tasks_);
   }
 
@@ -188,6 +198,8 @@ class Pool {
     how.timed_out = timed_out;
     if (WIFSIGNALED(status)) how.signal = WTERMSIG(status);
     if (WIFEXITED(status)) how.exit_code = WEXITSTATUS(status);
+    if (how.exit_code == kNotLimited && !timed_out)
+      throw SystemFailure("the memory limit cannot be set: the system refuses it: leave it out");
     tasks_.died(task, how);
   }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -180,6 +182,32 @@ TEST_F(BatchFolders, StopAskingAWatcherThatSaysNo) {
       run_batch(plan, folder, {}, [](const BatchEvent& event) { return event.kind != BatchEvent::Kind::case_started; });
   EXPECT_TRUE(report.interrupted);
   EXPECT_EQ(report.exit_code, 130);
+}
+
+TEST_F(BatchFolders, AreNotJoinedTwice) {
+  plan.resize(1);
+  ASSERT_EQ(run_batch(plan, folder).exit_code, 0);
+  EXPECT_THAT(
+      [&] {
+        (void)merge_batches({folder, dir.path("./out")}, dir.path("joined"));
+      },
+      ThrowsMessage<InvalidInput>(HasSubstr("are the same folder: leave one out")));
+}
+
+TEST(Workers, TellInOneLineAndTakeAnyLimitOfMemory) {
+  bool is_given = false;
+  std::string told;
+  batch::WorkerLimits limits;
+  limits.memory_b = 1e300;
+  batch::run_on_workers(limits,
+                        {[](std::size_t) { return std::string("a\nb\n"); },
+                         [&]() -> std::optional<std::size_t> {
+                           if (std::exchange(is_given, true)) return std::nullopt;
+                           return 0;
+                         },
+                         [&](std::size_t, const std::string& text) { told = text; },
+                         [](std::size_t task, const batch::WorkerEnd&) { FAIL() << task; }, [] { return true; }});
+  EXPECT_EQ(told, "a b ");
 }
 
 TEST(Workers, DoEveryTaskOnceAndEndWithTheCaller) {
