@@ -114,7 +114,9 @@ def many_models(results: Sequence[Result]) -> Iterator[Target]:
     for models, name in ((100, "in the cache"), (1000, "larger than the cache")):
         ours = next((r for r in taylor if r["models"] == models and r.get("rtol") == 1e-8 and "error" in r), None)
         error = None if ours is None else ours["error"]
-        yield Target(6, f"many models by Taylor, results {name}, us a model", scaled(1e6, seconds(ours)), "<=", 3, error)
+        yield Target(
+            6, f"many models by Taylor, results {name}, us a model", scaled(1e6, seconds(ours)), "<=", 3, error
+        )
     batch = seconds_at_error(select(results, "many", "crashsim simulate_many, cvode_batch", "source"), FORWARD_ERROR)
     single = seconds_at_error(select(results, "W1", "CVODE, straightforward", "source"), FORWARD_ERROR)
     measured = quotient(batch, single)
