@@ -64,6 +64,7 @@ class WorkerProcesses(Executor):
         self._is_over = False
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Sends a call to a process; a future of its result."""
         return self._threads.submit(self._run, (fn, args, kwargs))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
@@ -153,6 +154,7 @@ class RayExecutor(Executor):
         self._remote = ray.remote(**{"num_cpus": 1, **options})(_call)
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Sends a call to Ray; a future of its result."""
         future: Future[Any] = self._remote.remote(fn, args, kwargs).future()
         return future
 
