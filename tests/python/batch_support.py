@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import signal
@@ -57,6 +58,14 @@ def children_of(pid: int) -> list[int]:
     return [int(word) for word in words]
 
 
+def command_of(pid: int) -> bytes:
+    """The command line of a process; empty when it is gone."""
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:
+        return b""
+
+
 class Killer:
     """A progress function that kills a process once some cases are done, `times` times."""
 
@@ -70,7 +79,9 @@ class Killer:
         if done < self._after or not self._left:
             return
         for victim in self._victims():
-            if victim not in self.killed:
+            if victim in self.killed:
+                continue
+            with contextlib.suppress(ProcessLookupError):
                 os.kill(victim, signal.SIGKILL)
                 self.killed.append(victim)
                 self._left -= 1

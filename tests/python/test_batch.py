@@ -23,7 +23,7 @@ import pytest
 
 import crashsim
 import support
-from batch_support import ENDLESS, SIMULATED, Killer, children_of, files_of, write_cases, write_inputs
+from batch_support import ENDLESS, SIMULATED, Killer, children_of, command_of, files_of, write_cases, write_inputs
 from crashsim._batch.executors import WorkerProcesses
 from crashsim._batch.task import work
 
@@ -33,7 +33,7 @@ PATIENCE_S = 20.0
 
 
 def own_workers() -> list[int]:
-    return [pid for pid in children_of(os.getpid()) if b"crashsim._batch" in Path(f"/proc/{pid}/cmdline").read_bytes()]
+    return [pid for pid in children_of(os.getpid()) if b"crashsim._batch" in command_of(pid)]
 
 
 @pytest.fixture(scope="module")

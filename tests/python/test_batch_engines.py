@@ -15,7 +15,7 @@ import pytest
 
 import crashsim
 import support
-from batch_support import Killer, children_of, files_of, write_cases
+from batch_support import Killer, children_of, command_of, files_of, write_cases
 
 COUNT = 16
 
@@ -70,15 +70,8 @@ def test_ray_also_when_a_worker_is_killed(tmp_path: Path) -> None:
     try:
 
         def workers() -> list[int]:
-            daemons = [
-                pid for pid in children_of(os.getpid()) if b"raylet" in Path(f"/proc/{pid}/cmdline").read_bytes()
-            ]
-            return [
-                pid
-                for daemon in daemons
-                for pid in children_of(daemon)
-                if b"_call" in Path(f"/proc/{pid}/cmdline").read_bytes()
-            ]
+            daemons = [pid for pid in children_of(os.getpid()) if b"raylet" in command_of(pid)]
+            return [pid for daemon in daemons for pid in children_of(daemon) if b"_call" in command_of(pid)]
 
         killer = Killer(workers)
         with crashsim.RayExecutor() as executor:
