@@ -11,15 +11,10 @@
 namespace crashsim {
 namespace {
 
-double force_at(const ForceAxis& axis, std::span<const double> ordinates, double s) {
-  double force = 0.0;
-  for (const OrdinateBasis& basis : axis.segments[static_cast<std::size_t>(axis.locate(s, +1))])
-    if (basis.ordinate >= 0) force += ordinates[static_cast<std::size_t>(basis.ordinate)] * value(basis.c, s);
-  return force;
-}
-
-ForceAxis spring_axis(const CrushModel& model) {
-  return make_axis(model.spring.knots, model.law == CrushLaw::stiffness, model.extrapolation);
+/// The force where the model is at crush x and velocity v.
+RegionForce force_at(const CrushModel& model, double x, double v) {
+  const CrushForce force = make_force(model);
+  return region_force(force, force.spring.locate(x, +1), force.damper.locate(v, +1));
 }
 
 /// Unset, or finite and in the range.
@@ -44,6 +39,22 @@ void validate(const Unloading& unloading) {
                     std::isnan(k_u) ? "restitution" : "unloading_stiffness_n_per_m"));
 }
 
+/// The numbers of law `rate`, which no other law has.
+void validate_rate(const CrushModel& model) {
+  const double r = model.rate_coefficient, v_ref = model.reference_speed_mps;
+  if (model.law != CrushLaw::rate) {
+    if (std::isnan(r) && std::isnan(v_ref)) return;
+    throw InvalidInput(fmt::format("CrushModel.{}: goes with law rate, this is {}: choose rate or leave it out",
+                                   std::isnan(r) ? "reference_speed_mps" : "rate_coefficient", name_of(model.law)));
+  }
+  if (!std::isfinite(r) || r < 0.0)
+    throw InvalidInput(fmt::format("CrushModel.rate_coefficient = {}: must be >= 0 with law rate", r));
+  if (!std::isfinite(v_ref) || v_ref <= 0.0)
+    throw InvalidInput(fmt::format("CrushModel.reference_speed_mps = {} m/s: must be > 0 with law rate", v_ref));
+  if (!model.damper.knots.empty())
+    throw InvalidInput("CrushModel.damper: law rate has none: its rate effect is rate_coefficient");
+}
+
 }  // namespace
 
 bool Unloading::operator==(const Unloading& other) const {
@@ -62,15 +73,20 @@ void validate(const CrushModel& model) {
   const auto is_absent = [](const PiecewiseLinear& c) { return c.knots.empty() && c.ordinates.empty(); };
   if (!is_absent(model.spring)) validate(model.spring, "CrushModel.spring");
   if (!is_absent(model.damper)) validate(model.damper, "CrushModel.damper");
+  validate_rate(model);
   validate(model.unloading);
 }
 
-double spring_force(const CrushModel& model, double x) {
-  return force_at(spring_axis(model), model.spring.ordinates, x);
-}
+double spring_force(const CrushModel& model, double x) { return value(force_at(model, x, 0.0).spring, x); }
+
+double damper_force(const CrushModel& model, double x, double v) { return force_at(model, x, v).damper_at(x, v); }
 
 double damper_force(const CrushModel& model, double v) {
-  return force_at(make_axis(model.damper.knots, true, model.extrapolation), model.damper.ordinates, v);
+  if (model.law == CrushLaw::crush_damping || model.law == CrushLaw::rate)
+    throw InvalidInput(
+        fmt::format("damper_force: with law {} the damper's force depends on the crush, too: give crush and velocity",
+                    name_of(model.law)));
+  return damper_force(model, 0.0, v);
 }
 
 double spring_energy(const CrushModel& model, double x) {

@@ -80,7 +80,7 @@ class Recorder {
     for (std::size_t i = first; i < count; ++i) {
       const double tau = std::min(out_.time_s[i] - step.base, tau_end);
       const double x = step.x_at(tau), v = step.v_at(tau);
-      const double spring = value(force.spring, x), damper = value(force.damper, v);
+      const double spring = value(force.spring, x), damper = force.damper_at(x, v);
       const double absorbed = energy[0] + x * (energy[1] + x * (energy[2] + x * energy[3])) + step.dissipated_at(tau);
       out_.displacement_m[i] = x;
       out_.velocity_mps[i] = v;

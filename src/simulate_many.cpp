@@ -149,12 +149,9 @@ void judge(const Study& study, std::size_t index, CrushOutcome outcome, const M&
 
 void load(const CrushModels& models, std::size_t index, LaneModel& lane) {
   const CrushModel& common = models.common;
-  const bool is_stiffness = common.law == CrushLaw::stiffness;
-  if (models.spring_knots.rows() > 0 || lane.force.spring.segments.empty())
-    lane.force.spring =
-        make_axis(row_or(models.spring_knots, index, common.spring.knots), is_stiffness, common.extrapolation);
-  if (models.damper_knots.rows() > 0 || lane.force.damper.segments.empty())
-    lane.force.damper = make_axis(row_or(models.damper_knots, index, common.damper.knots), true, common.extrapolation);
+  if (models.spring_knots.rows() > 0 || models.damper_knots.rows() > 0 || lane.force.spring.segments.empty())
+    lane.force = make_force({common.law, common.extrapolation, row_or(models.spring_knots, index, common.spring.knots),
+                             row_or(models.damper_knots, index, common.damper.knots), common.reference_speed_mps});
   lane.force.set_ordinates(row_or(models.spring_ordinates, index, common.spring.ordinates),
                            row_or(models.damper_ordinates, index, common.damper.ordinates));
   lane.mass_kg = entry_or(models.mass_kg, index, common.mass_kg);

@@ -10,9 +10,13 @@
 
 namespace crashsim {
 
-/// What the spring's ordinates are: stiffness, F_k = k(|x|) x, or force, F_k = f(|x|) sign(x).
-enum class CrushLaw { stiffness, force };
-inline constexpr std::string_view kCrushLawNames[] = {"stiffness", "force"};
+/// What spring and damper are curves of; the force F = F_k + F_c.
+///     stiffness      F_k = k(|x|) x,          F_c = c(|v|) v
+///     force          F_k = f(|x|) sign(x),    F_c = c(|v|) v
+///     crush_damping  F_k = f(|x|) sign(x),    F_c = c(|x|) v: the rate effect belongs to what is being crushed
+///     rate           F_k = f(|x|) sign(x),    F_c = F_k r ln(1 + |v| / v_ref): strain-rate hardening, without a damper
+enum class CrushLaw { stiffness, force, crush_damping, rate };
+inline constexpr std::string_view kCrushLawNames[] = {"stiffness", "force", "crush_damping", "rate"};
 template <>
 inline constexpr std::span<const std::string_view> enum_names<CrushLaw>{kCrushLawNames};
 
@@ -46,15 +50,17 @@ struct Unloading {
 };
 
 /// One-degree-of-freedom crush, [Noorsumar2021] eq. (1)-(3):
-///     m x'' + F_k + F_c = 0,   F_k = k(|x|) x,   F_c = c(|v|) v,   x(0) = 0,   v(0) = impact speed
+///     m x'' + F_k + F_c = 0,   x(0) = 0,   v(0) = impact speed,   F_k and F_c as CrushLaw says
 /// x is crush [m], positive while the front shortens; v = x' [m/s], positive towards the barrier.
 struct CrushModel {
   double mass_kg = kUnset;           ///< Test mass [kg], > 0.
   double impact_speed_mps = kUnset;  ///< Speed it was identified at, the default of simulate() [m/s], > 0 or unset.
   CrushLaw law = CrushLaw::stiffness;
   Extrapolation extrapolation = Extrapolation::constant;
-  PiecewiseLinear spring;  ///< k(|x|): knots [m], ordinates [N/m] (law `force`: f(|x|) [N]), >= 0.
-  PiecewiseLinear damper;  ///< c(|v|): knots [m/s], ordinates [N s/m], >= 0.
+  PiecewiseLinear spring;  ///< k(|x|): knots [m], ordinates [N/m], >= 0; but for law `stiffness` f(|x|) [N].
+  PiecewiseLinear damper;  ///< c(|v|): knots [m/s], ordinates [N s/m], >= 0; law `crush_damping`: c(|x|), knots [m].
+  double rate_coefficient = kUnset;     ///< Law `rate`: r [-], >= 0.
+  double reference_speed_mps = kUnset;  ///< Law `rate`: v_ref [m/s], > 0.
   Unloading unloading;
 };
 
@@ -64,7 +70,9 @@ void validate(const CrushModel& model);
 /// F_k(x) [N], extrapolated as the model says (`error` extrapolates as `constant` here).
 double spring_force(const CrushModel& model, double x);
 
-/// F_c(v) [N].
+/// F_c at crush x and velocity v [N].
+double damper_force(const CrushModel& model, double x, double v);
+/// F_c(v) [N]. @throws InvalidInput for a law whose F_c depends on the crush, too.
 double damper_force(const CrushModel& model, double v);
 
 /// Work of the spring from 0 to x, exactly [J].

@@ -36,9 +36,9 @@ Eigen::VectorXd solve_equation_error(const FitStructure& structure, std::span<co
   if (samples < springs + dampers)
     throw InvalidInput(
         fmt::format("{} samples up to t_m cannot determine {} ordinates: use fewer knots", samples, springs + dampers));
-  const ForceAxis spring =
-      make_axis(structure.spring_knots, structure.law == CrushLaw::stiffness, Extrapolation::constant);
-  const ForceAxis damper = make_axis(structure.damper_knots, true, Extrapolation::constant);
+  const CrushForce force =
+      make_force({structure.law, Extrapolation::constant, structure.spring_knots, structure.damper_knots});
+  const ForceAxis &spring = force.spring, &damper = force.damper;
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(samples + springs + dampers, springs + dampers);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(a.rows());
   Index row = 0;

@@ -48,8 +48,7 @@ std::vector<double> padded(std::vector<double> numbers) {
 }
 
 double acceleration(const CrushProblem& problem, const Region& region, double x, double v) {
-  const RegionForce force = region_force(problem, region);
-  return -(value(force.spring, x) + value(force.damper, v)) / problem.mass_kg;
+  return -region_force(problem, region).at(x, v) / problem.mass_kg;
 }
 
 }  // namespace
@@ -170,8 +169,7 @@ FitObjective::FitObjective(const FitStructure& structure, std::span<const FitTar
   for (const FitTarget& target : targets)
     samples_.push_back({padded(target.time_s), padded(target.accel_mps2), padded(target.velocity_mps),
                         padded(target.displacement_m), target.time_s.size()});
-  force_.spring = make_axis(structure.spring_knots, structure.law == CrushLaw::stiffness, Extrapolation::constant);
-  force_.damper = make_axis(structure.damper_knots, true, Extrapolation::constant);
+  force_ = make_force({structure.law, Extrapolation::constant, structure.spring_knots, structure.damper_knots});
 }
 
 void FitObjective::set(std::span<const double> parameters) {

@@ -157,7 +157,7 @@ CoupledForces forces(const CoupledProblem& problem, const CoupledMode& mode, dou
   const RegionForce crush = region_force(problem.crush(), mode.crush);
   const double s = y[kTravel] + problem.height_m * y[kPitch];
   CoupledForces out{.spring_n = value(crush.spring, s),
-                    .damper_n = value(crush.damper, y[kSpeed] + problem.height_m * y[kPitchRate])};
+                    .damper_n = crush.damper_at(s, y[kSpeed] + problem.height_m * y[kPitchRate])};
   if (problem.follows_law) {
     out.vertical_n = out.longitudinal_n() * tangent(problem.angle, mode, s);
   } else {

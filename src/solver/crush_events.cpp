@@ -11,15 +11,13 @@ double magnitude(const Quadratic& c, double s) {
   return std::fabs(c[0]) + std::fabs(s) * (std::fabs(c[1]) + std::fabs(s * c[2]));
 }
 
-double derivative(const Quadratic& c, double s) { return c[1] + 2.0 * s * c[2]; }
-
 /// Force of a region at a state; what rounding leaves of it, its own or the state's, is zero. `margin` is the rounding
 /// of v: a force that starts from nothing must not count as a pull because x is -1e-20 m.
 double contact_force(const RegionForce& force, double x, double v, double margin) {
-  const double sum = value(force.spring, x) + value(force.damper, v);
+  const double sum = force.at(x, v);
   const double rounding =
-      kForceRounding * (magnitude(force.spring, x) + magnitude(force.damper, v)) +
-      margin * (kCrashTime * std::fabs(derivative(force.spring, x)) + std::fabs(derivative(force.damper, v)));
+      kForceRounding * (magnitude(force.spring, x) + magnitude(force.damper, v) + std::fabs(force.cross * x * v)) +
+      margin * (kCrashTime * std::fabs(force.by_x(x, v)) + std::fabs(force.by_v(x, v)));
   return std::fabs(sum) > rounding ? sum : 0.0;
 }
 
@@ -30,10 +28,9 @@ struct SignChange {
 };
 SignChange sign_change(const RegionForce& force, const StepPolynomial& step, double margin) {
   const auto at = [&](const CrushState& y) { return contact_force(force, y.x, y.v, margin); };
-  const auto exactly = [&](const CrushState& y) { return value(force.spring, y.x) + value(force.damper, y.v); };
+  const auto exactly = [&](const CrushState& y) { return force.at(y.x, y.v); };
   const auto slope = [&](double tau, const CrushState& y) {
-    return derivative(force.spring, y.x) * y.v +
-           derivative(force.damper, y.v) * horner_derivative(step.v, step.degree, tau);
+    return force.by_x(y.x, y.v) * y.v + force.by_v(y.x, y.v) * horner_derivative(step.v, step.degree, tau);
   };
   double start = step.from;
   CrushState from = step.start;
@@ -93,8 +90,7 @@ void cross_bounds(const ForceAxis& axis, int segment, const Coefficients& c, dou
 RegionForce region_force(const CrushProblem& problem, const Region& region) {
   if (region.separated) return {};
   if (region.unloading) return {region.return_line, {}};
-  return {problem.force.spring_polynomials[static_cast<std::size_t>(region.spring)],
-          problem.force.damper_polynomials[static_cast<std::size_t>(region.damper)]};
+  return region_force(problem.force, region.spring, region.damper);
 }
 
 Region initial_region(const CrushProblem& problem) {

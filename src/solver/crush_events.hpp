@@ -27,10 +27,7 @@ struct Region {
   Quadratic return_line{};  ///< Its force over x.
 };
 
-/// Polynomials of a region, none when separated.
-struct RegionForce {
-  Quadratic spring{}, damper{};
-};
+/// Force of a region, none when separated.
 RegionForce region_force(const CrushProblem& problem, const Region& region);
 
 enum class EventKind { none, spring_knot, damper_knot, turn, separation };

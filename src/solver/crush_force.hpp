@@ -1,7 +1,10 @@
 #pragma once
-/// The crush force as polynomials between breaks: F(x, v) = sum_j spring[j] x^j + sum_j damper[j] v^j.
+/// The crush force between breaks of x and of v:
+///     F(x, v) = spring(x) (1 + rate ln(1 + per_reference v)) + damper(v) + cross x v
+/// with polynomials spring and damper.
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -24,30 +27,74 @@ struct OrdinateBasis {
 struct ForceAxis {
   std::vector<double> breaks;
   std::vector<std::array<OrdinateBasis, 2>> segments;
-  bool outer_is_error = false;  ///< The outer segments must not be entered.
+  int first_allowed = 0, last_allowed = 0;  ///< Segments that may be entered.
 
   [[nodiscard]] int count() const { return static_cast<int>(segments.size()); }
   [[nodiscard]] double lower(int segment) const;
   [[nodiscard]] double upper(int segment) const;
   /// Segment a variable at `s`, moving in `direction` (+1 or -1), is in or enters.
   [[nodiscard]] int locate(double s, int direction) const;
-  [[nodiscard]] bool forbidden(int segment) const { return outer_is_error && (segment == 0 || segment == count() - 1); }
+  [[nodiscard]] bool forbidden(int segment) const { return segment < first_allowed || segment > last_allowed; }
 };
 
-/// Axis of a curve with these knots (none: no force). `multiplied`: the ordinates multiply the variable, k(|x|) x;
-/// otherwise they are the force itself, f(|x|) sign(x).
-ForceAxis make_axis(std::span<const double> knots, bool multiplied, Extrapolation extrapolation);
+/// What a curve's ordinates make of its variable s: a force y(|s|) s, a force y(|s|) sign(s), or the factor y(|s|).
+enum class OrdinateKind { stiffness, force, factor };
+
+/// Axis of a curve with these knots (none: no force).
+ForceAxis make_axis(std::span<const double> knots, OrdinateKind kind, Extrapolation extrapolation);
 
 /// Both axes of a model with their polynomials for the current ordinates.
 struct CrushForce {
   ForceAxis spring, damper;
-  std::vector<Quadratic> spring_polynomials, damper_polynomials;
+  /// Law `crush_damping`: the damper's ordinates on the segments of `spring`, which has the breaks of both curves;
+  /// `damper` then only tells the sign of v.
+  std::vector<std::array<OrdinateBasis, 2>> damping;
+  double rate_coefficient = 0.0, per_reference_speed = 0.0;  ///< Law `rate`.
+  std::vector<Quadratic> spring_polynomials, damper_polynomials, damping_polynomials;
 
   /// Recomputes the polynomials; sizes as the knots.
   void set_ordinates(std::span<const double> spring_ordinates, std::span<const double> damper_ordinates);
 };
 
+/// Curves of a force without ordinates.
+struct ForceShape {
+  CrushLaw law = CrushLaw::stiffness;
+  Extrapolation extrapolation = Extrapolation::constant;
+  std::span<const double> spring_knots, damper_knots;
+  double reference_speed_mps = kUnset;
+};
+
+CrushForce make_force(const ForceShape& shape);
 CrushForce make_force(const CrushModel& model);
+
+/// The force inside one region of x and v, as a function of both.
+struct RegionForce {
+  Quadratic spring{}, damper{};
+  double cross = 0.0;
+  double rate = 0.0, per_reference = 0.0;  ///< rate = 0: none. per_reference has the sign of v.
+
+  [[nodiscard]] double at(double x, double v) const { return value(spring, x) * hardening(v) + damping_at(x, v); }
+  /// F_c: what is not the spring's.
+  [[nodiscard]] double damper_at(double x, double v) const {
+    return value(spring, x) * (hardening(v) - 1.0) + damping_at(x, v);
+  }
+  [[nodiscard]] double by_x(double x, double v) const {
+    return (spring[1] + 2.0 * x * spring[2]) * hardening(v) + cross * v;
+  }
+  [[nodiscard]] double by_v(double x, double v) const {
+    const double by_rate = rate == 0.0 ? 0.0 : value(spring, x) * rate * per_reference / (1.0 + per_reference * v);
+    return by_rate + damper[1] + 2.0 * v * damper[2] + cross * x;
+  }
+
+ private:
+  [[nodiscard]] double hardening(double v) const {
+    return rate == 0.0 ? 1.0 : 1.0 + rate * std::log1p(per_reference * v);
+  }
+  [[nodiscard]] double damping_at(double x, double v) const { return value(damper, v) + cross * x * v; }
+};
+
+/// @param spring segment of x, @param damper segment of v.
+RegionForce region_force(const CrushForce& force, int spring, int damper);
 
 /// Work of the spring from 0 to x, exactly.
 double spring_energy(const CrushForce& force, double x);

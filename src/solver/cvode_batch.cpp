@@ -40,7 +40,7 @@ int move_to(const ForceAxis& axis, int segment, double s) {
 /// Segment of a variable that has not yet left its knots where it must not.
 int segment_at(const ForceAxis& axis, double s, int direction) {
   const int segment = axis.locate(s, direction);
-  return axis.outer_is_error ? std::clamp(segment, 1, axis.count() - 2) : segment;
+  return std::clamp(segment, axis.first_allowed, axis.last_allowed);
 }
 
 /// Region of a motion in contact at the start of a step. What rounding has put beyond a bound there, with no event
@@ -207,12 +207,12 @@ void CvodeBatch::set_limits(std::size_t index) {
   const bool is_loading = std::isnan(model.state.summary.t_m_s);
   const double runaway = kRunaway * model.data.speed_mps;
   const bool bilateral = model.data.unloading.bilateral;
-  limits_.x_low[index] = force.spring.outer_is_error ? force.spring.breaks.front() : -kInfinity;
+  limits_.x_low[index] = force.spring.lower(force.spring.first_allowed);
   if (!bilateral && jumps(model.data)) limits_.x_low[index] = 0.0;
-  limits_.x_high[index] = force.spring.outer_is_error ? force.spring.breaks.back() : kInfinity;
-  limits_.v_low[index] = force.damper.outer_is_error ? force.damper.breaks.front() : -runaway;
+  limits_.x_high[index] = force.spring.upper(force.spring.last_allowed);
+  limits_.v_low[index] = std::max(force.damper.lower(force.damper.first_allowed), -runaway);
   if (is_loading) limits_.v_low[index] = 0.0;
-  limits_.v_high[index] = force.damper.outer_is_error ? force.damper.breaks.back() : runaway;
+  limits_.v_high[index] = std::min(force.damper.upper(force.damper.last_allowed), runaway);
   limits_.accel_high[index] = bilateral ? kInfinity : 0.0;
 }
 

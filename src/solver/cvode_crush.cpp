@@ -6,10 +6,9 @@ namespace crashsim {
 
 CvodeStepper::CvodeStepper(double rtol)
     : rtol_(rtol), cvode_(3, [this](double, const double* y, double* ydot) {
-        const double damper = value(force_.damper, y[1]);
         ydot[0] = y[1];
-        ydot[1] = -(value(force_.spring, y[0]) + damper) / mass_kg_;
-        ydot[2] = damper * y[1];
+        ydot[1] = -force_.at(y[0], y[1]) / mass_kg_;
+        ydot[2] = force_.damper_at(y[0], y[1]) * y[1];
       }) {}
 
 void CvodeStepper::restart(const CrushProblem& problem, const Region& region, double t, double x, double v,

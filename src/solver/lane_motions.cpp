@@ -70,7 +70,8 @@ void LaneMotions::enter_region(std::size_t lane) {
   const Lane& self = lanes_[lane];
   const Region& region = self.state.region;
   const CrushProblem problem = self.model.problem();
-  const auto [spring, damper] = region_force(problem, region);
+  const RegionForce force = region_force(problem, region);
+  const Quadratic &spring = force.spring, &damper = force.damper;
   const double per_mass = -1.0 / self.model.mass_kg;
   block_.force.constant[lane] = per_mass * (spring[0] + damper[0]);
   block_.force.x1[lane] = per_mass * spring[1];

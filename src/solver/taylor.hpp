@@ -1,6 +1,6 @@
 #pragma once
-/// Taylor-series integrator of the crush model. Between knots the force is quadratic in x and v, so that the
-/// coefficients of the motion follow from a short recurrence.
+/// Taylor-series integrator of the crush model. Between knots the force is quadratic in x and v, or that times a
+/// logarithm of v, so that the coefficients of the motion follow from a short recurrence.
 
 #include "solver/crush_events.hpp"
 
@@ -8,7 +8,7 @@ namespace crashsim {
 
 inline constexpr int kTaylorDegree = 10;  ///< Of the series: cheapest of 8..14 at the accuracies in use.
 
-/// Series of x and v about a state, m v' = -(spring(x) + damper(v)).
+/// Series of x and v about a state, m v' = -F(x, v).
 void taylor_series(const RegionForce& force, double mass_kg, double x, double v, StepPolynomial& step);
 
 /// Stepper for integrate_motion().
