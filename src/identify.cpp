@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include <crashsim/option_values.hpp>
 #include <crashsim/simulate.hpp>
 
-#include "optimize/equation_error.hpp"
+#include "optimize/fit_study.hpp"
 #include "optimize/identifiability.hpp"
 #include "optimize/multistart.hpp"
+#include "optimize/test_corrections.hpp"
 #include "optimize/verdict.hpp"
 #include "solver/crush_motion.hpp"
 
@@ -22,101 +23,7 @@ namespace {
 
 constexpr double kAgreement = 1e-6;    // between the Taylor kernel's E and CVODE's
 constexpr double kLeastError = 1e-3;   // E below which the agreement is absolute
-constexpr double kBoundFactor = 2.0;   // spring or damper alone may carry this much of the measured force
-constexpr double kLeastGap = 0.1;      // between quantile knots, relative to even spacing
 constexpr double kRecordRtol = 1e-10;  // of the simulation E is reported from
-
-/// Knots at quantiles of the samples, moved apart where samples crowd: kLeastGap of the even spacing is kept.
-std::vector<double> quantile_knots(std::vector<double> samples, double last, int count) {
-  std::sort(samples.begin(), samples.end());
-  std::vector<double> knots = uniform_knots(last, count);
-  const double gap = count > 1 ? kLeastGap * knots[1] : 0.0;
-  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
-    const double position =
-        static_cast<double>(i) / static_cast<double>(knots.size() - 1) * static_cast<double>(samples.size() - 1);
-    knots[i] = std::max(samples[static_cast<std::size_t>(position)], knots[i - 1] + gap);
-  }
-  for (std::size_t i = knots.size(); i-- > 2;) knots[i - 1] = std::min(knots[i - 1], knots[i] - gap);
-  return knots;
-}
-
-void check_given_knots(const std::vector<double>& knots) {
-  if (knots.empty())
-    throw InvalidInput("IdentifyOptions.knots: no numbers given: give the spring's knots in m, from 0");
-  for (std::size_t i = 0; i < knots.size(); ++i)
-    if (i == 0 ? knots[i] != 0.0 : knots[i] <= knots[i - 1])
-      throw InvalidInput(
-          fmt::format("IdentifyOptions.knots[{}] = {} m: knots must start at 0 and increase strictly", i, knots[i]));
-}
-
-FitStructure make_structure(const IdentifyOptions& options, std::span<const FitTarget> targets) {
-  double crush = 0.0, speed = 0.0;
-  std::vector<double> x, v;
-  for (const FitTarget& target : targets) {
-    crush = std::max(crush, target.max_crush_m);
-    speed = std::max(speed, target.impact_speed_mps);
-    x.insert(x.end(), target.displacement_m.begin(), target.displacement_m.end());
-    v.insert(v.end(), target.velocity_mps.begin(), target.velocity_mps.end());
-  }
-  FitStructure structure{options.law, {}, {}};
-  switch (options.knots.rule) {
-    case KnotPlacement::uniform:
-      structure.spring_knots = uniform_knots(crush, options.spring_knots);
-      structure.damper_knots = uniform_knots(speed, options.damper_knots);
-      break;
-    case KnotPlacement::quantile:
-      structure.spring_knots = quantile_knots(x, crush, options.spring_knots);
-      structure.damper_knots = quantile_knots(v, speed, options.damper_knots);
-      break;
-    case KnotPlacement::given:
-      check_given_knots(options.knots.numbers);
-      if (options.spring_knots > 0) structure.spring_knots = options.knots.numbers;
-      if (options.damper_knots > 0)
-        for (const double knot : options.knots.numbers)
-          structure.damper_knots.push_back(
-              options.knots.numbers.size() > 1 ? knot / options.knots.numbers.back() * speed : 0.0);
-  }
-  if (structure.size() == 0)
-    throw InvalidInput("IdentifyOptions.spring_knots = 0 and damper_knots = 0: there is nothing to identify");
-  return structure;
-}
-
-/// Upper bounds of one curve: what its hat alone needs to carry kBoundFactor times the measured force, wherever the hat
-/// stands for at least a quarter of its range from 0 (nearer the ratio force/s says nothing).
-void bound_curve(const std::vector<double>& knots, bool multiplied, std::span<const FitTarget> targets,
-                 std::vector<double> FitTarget::*variable, double fallback, Eigen::Ref<Eigen::VectorXd> upper) {
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    const double low = i > 0 ? knots[i - 1] : 0.0;
-    const double high = i + 1 < knots.size() ? knots[i + 1] : std::numeric_limits<double>::infinity();
-    double bound = 0.0, range = knots.size() > 1 ? knots[1] : 0.0;
-    if (knots.size() == 1)
-      for (const FitTarget& target : targets)
-        for (const double s : target.*variable) range = std::max(range, s);
-    const double least = 0.25 * range;
-    for (const FitTarget& target : targets)
-      for (std::size_t j = 0; j < target.time_s.size(); ++j) {
-        const double s = (target.*variable)[j];
-        if (s < low || s > high || s <= least) continue;
-        const double force = target.mass_kg * std::fabs(target.accel_mps2[j]);
-        bound = std::max(bound, multiplied ? force / s : force);
-      }
-    upper[static_cast<Eigen::Index>(i)] = kBoundFactor * (bound > 0.0 ? bound : fallback);
-  }
-}
-
-Eigen::VectorXd upper_bounds(const FitStructure& structure, const IdentifyOptions& options,
-                             std::span<const FitTarget> targets) {
-  const auto springs = static_cast<Eigen::Index>(structure.spring_knots.size());
-  const auto dampers = static_cast<Eigen::Index>(structure.damper_knots.size());
-  const ForceScale scale = force_scale(structure.law, targets);
-  Eigen::VectorXd upper(springs + dampers);
-  bound_curve(structure.spring_knots, structure.law == CrushLaw::stiffness, targets, &FitTarget::displacement_m,
-              scale.spring, upper.head(springs));
-  bound_curve(structure.damper_knots, true, targets, &FitTarget::velocity_mps, scale.damper, upper.tail(dampers));
-  if (!std::isnan(options.spring_upper)) upper.head(springs).setConstant(options.spring_upper);
-  if (!std::isnan(options.damper_upper)) upper.tail(dampers).setConstant(options.damper_upper);
-  return upper;
-}
 
 FitError channel_errors(const CrushResponse& run, const FitTarget& target, Loss loss) {
   const auto sum = [&](const std::vector<double>& model, const std::vector<double>& data, double scale) {
@@ -145,15 +52,15 @@ FitError error_of_record(const CrushModel& model, const FitTarget& target, Loss 
   return channel_errors(run, target, loss);
 }
 
-FitError mean_error(const CrushModel& model, std::span<const FitTarget> targets, Loss loss) {
+/// Mean over the tests, whose weights are in their errors.
+FitError mean_error(const std::vector<TestReport>& tests) {
   FitError mean{0.0, 0.0, 0.0, 0.0};
-  const double weight = 1.0 / static_cast<double>(targets.size());
-  for (const FitTarget& target : targets) {
-    const FitError error = error_of_record(model, target, loss);
-    mean.total += weight * error.total;
-    mean.accel += weight * error.accel;
-    mean.velocity += weight * error.velocity;
-    mean.displacement += weight * error.displacement;
+  const double weight = 1.0 / static_cast<double>(tests.size());
+  for (const TestReport& test : tests) {
+    mean.total += weight * test.error.total;
+    mean.accel += weight * test.error.accel;
+    mean.velocity += weight * test.error.velocity;
+    mean.displacement += weight * test.error.displacement;
   }
   return mean;
 }
@@ -162,25 +69,13 @@ bool errors_agree(double kernel, double record) {
   return std::fabs(kernel - record) <= kAgreement * std::max(record, kLeastError);
 }
 
-/// What an identification is made from.
-struct Study {
-  const IdentifyOptions& options;
-  std::vector<FitTarget> targets;
-  FitStructure structure;
-  Eigen::VectorXd upper;
-
-  Study(std::span<const Pulse> pulses, const IdentifyOptions& how) : options(how) {
-    for (const Pulse& pulse : pulses) targets.push_back(make_target(pulse, how.mass_kg, how.weights));
-    structure = make_structure(how, targets);
-    upper = upper_bounds(structure, how, targets);
-  }
-};
-
 /// E by CVODE, and whether the Taylor kernel, which fitted, agrees.
-void record_error(const Study& study, std::span<const double> parameters, Identification& out) {
+void record_error(const FitStudy& study, std::span<const double> parameters, Identification& out) {
   FitObjective objective(study.structure, study.targets, study.options.loss, 0.0);
   const double kernel_error = objective.evaluate(parameters, 0.0, {});
-  out.error = mean_error(out.model, study.targets, study.options.loss);
+  for (std::size_t i = 0; i < study.targets.size(); ++i)
+    out.tests[i].error = error_of_record(out.model, study.targets[i], study.options.loss);
+  out.error = mean_error(out.tests);
   if (!errors_agree(kernel_error, out.error.total)) {
     out.outcome = IdentifyOutcome::engines_disagree;
     out.message =
@@ -189,19 +84,68 @@ void record_error(const Study& study, std::span<const double> parameters, Identi
   }
 }
 
+/// What is known of the tests before the fit.
+std::vector<TestReport> describe_tests(std::span<const Pulse> pulses, const FitStudy& study) {
+  std::vector<TestReport> tests(pulses.size());
+  double sum = 0.0;
+  for (const double weight : study.options.test_weights) sum += weight;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    tests[i].impact_speed_mps = pulses[i].impact_speed_mps;
+    tests[i].mass_kg = study.targets[i].mass_kg;
+    tests[i].max_crush_m = pulses[i].max_crush_m;
+    tests[i].t_m_s = pulses[i].t_m_s;
+    if (sum > 0.0) tests[i].weight = study.options.test_weights[i] * static_cast<double>(tests.size()) / sum;
+  }
+  return tests;
+}
+
+/// Sensitivities of the corrections beside those of the parameters, with what is expected of them.
+struct Nuisance {
+  SoughtCorrections sought;
+  std::vector<double> corrections;
+  Eigen::MatrixXd rows;
+
+  [[nodiscard]] bool empty() const { return sought.empty(); }
+};
+
+/// `matrix` with rows of zeros below it.
+Eigen::MatrixXd padded(const Eigen::MatrixXd& matrix, Eigen::Index rows) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, matrix.cols());
+  out.topRows(matrix.rows()) = matrix;
+  return out;
+}
+
+void report_corrections(const Nuisance& nuisance, const Eigen::MatrixXd& jacobian, double variance,
+                        std::vector<TestReport>& tests) {
+  const Eigen::MatrixXd rows = without_nuisance(nuisance.rows, padded(jacobian, nuisance.rows.rows()));
+  const Eigen::MatrixXd covariance = variance * (rows.transpose() * rows).inverse();
+  for (std::size_t i = 0; i < nuisance.corrections.size(); ++i) {
+    const auto [value, error] = nuisance.sought.reported(i);
+    TestReport& test = tests[nuisance.sought.test_of(i)];
+    test.*value = nuisance.corrections[i] + (value == &TestReport::gain ? 1.0 : 0.0);
+    const auto at = static_cast<Eigen::Index>(i);
+    test.*error = std::sqrt(covariance(at, at));
+  }
+}
+
 /// Model, error and verdict of the parameters found.
-void judge(const Study& study, std::span<double> parameters, Identification& out) {
-  const auto& [options, targets, structure, upper] = study;
-  FitObjective objective(structure, targets, options.loss, options.smooth);
-  const Eigen::MatrixXd jacobian = objective.jacobian(parameters);
-  if (options.smooth == 0.0) hold_untouched(structure, touched_columns(jacobian, upper), parameters);
-  out.model = make_model(structure, parameters, targets.front().mass_kg, targets.front().impact_speed_mps);
+void judge(const FitStudy& study, std::span<double> parameters, const Nuisance& nuisance, Identification& out) {
+  const std::vector<FitTarget>& targets = study.targets;
+  FitObjective objective = study.objective();
+  Eigen::MatrixXd jacobian = objective.jacobian(parameters);
+  if (study.smooth == 0.0) hold_untouched(study.structure, touched_columns(jacobian, study.upper), parameters);
+  out.model = make_model(study.structure, parameters, targets.front().mass_kg, targets.front().impact_speed_mps);
+  out.smooth = study.smooth;
   record_error(study, parameters, out);
-  FitObjective squared(structure, targets, Loss::l2, 0.0);
+  FitObjective squared(study.structure, targets, Loss::l2, 0.0);
   const double freedom = std::max<double>(1.0, static_cast<double>(jacobian.rows() - jacobian.cols()));
   const double variance = squared.evaluate(parameters, 0.0, {}) * static_cast<double>(targets.size()) / freedom;
-  Identifiability found = judge_identifiability(structure, parameters, upper, jacobian, objective.roughness_rows(),
-                                                variance, targets.size());
+  if (!nuisance.empty()) {
+    report_corrections(nuisance, jacobian, variance, out.tests);
+    jacobian = without_nuisance(padded(jacobian, nuisance.rows.rows()), nuisance.rows);
+  }
+  Identifiability found = judge_identifiability(study.structure, parameters, study.upper, jacobian,
+                                                objective.penalty_rows(), variance, targets.size());
   out.verdict = std::move(found.verdict);
   out.ordinates = std::move(found.ordinates);
   out.correlation = std::move(found.correlation);
@@ -218,13 +162,15 @@ std::vector<double> best_of(const std::vector<StartResult>& results, Identificat
   return best < 0 ? std::vector<double>() : results[static_cast<std::size_t>(best)].parameters;
 }
 
-std::vector<double> find_parameters(const Study& study, const Progress& progress, Identification& out) {
-  const auto& [options, targets, structure, upper] = study;
-  const Eigen::VectorXd linear = solve_equation_error(structure, targets, upper, options.smooth);
-  if (options.method == IdentifyMethod::multistart)
-    return best_of(run_starts({structure, targets, options, upper, linear}, progress), out);
+std::vector<double> find_parameters(const FitStudy& study, const Progress& progress, Identification& out) {
+  const Eigen::VectorXd linear = study.solve_equation_error();
+  if (study.options.method == IdentifyMethod::multistart)
+    return best_of(
+        run_starts({study.structure, study.targets, study.options, study.upper, linear, study.smooth, study.prior},
+                   progress),
+        out);
   std::vector<double> parameters(linear.begin(), linear.end());
-  FitObjective objective(structure, targets, options.loss, options.smooth);
+  FitObjective objective = study.objective();
   if (std::isfinite(objective.evaluate(parameters, 0.0, {}))) return parameters;
   out.outcome = IdentifyOutcome::every_start_failed;
   out.message = fmt::format(
@@ -232,6 +178,32 @@ std::vector<double> find_parameters(const Study& study, const Progress& progress
       "times and units, or lower the bounds",
       kStepLimit);
   return {};
+}
+
+/// Descends once more from parameters that are already good.
+std::vector<double> descend_from(const FitStudy& study, const std::vector<double>& parameters) {
+  IdentifyOptions once = study.options;
+  once.starts = 1;
+  const Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(parameters.data(), study.upper.size());
+  const std::vector<StartResult> results =
+      run_starts({study.structure, study.targets, once, study.upper, start, study.smooth, study.prior}, {});
+  return results.front().report.failed ? parameters : results.front().parameters;
+}
+
+/// Finds the errors of the accelerometers with the parameters, and corrects the study's targets by them.
+Nuisance correct_tests(std::span<const Pulse> pulses, std::vector<double>& parameters, FitStudy& study) {
+  Nuisance nuisance{SoughtCorrections(study.options, pulses.size()), {}, {}};
+  if (nuisance.empty()) return nuisance;
+  CorrectedFit fit = fit_corrections(study, pulses, nuisance.sought, parameters);
+  const Eigen::MatrixXd jacobian = correction_jacobian(study, pulses, nuisance.sought, fit.corrections);
+  const Eigen::MatrixXd expected = correction_rows(study, nuisance.sought);
+  nuisance.rows.resize(jacobian.rows() + expected.rows(), jacobian.cols());
+  nuisance.rows << jacobian, expected;
+  nuisance.corrections = std::move(fit.corrections);
+  study.targets = std::move(fit.targets);
+  parameters =
+      study.options.method == IdentifyMethod::multistart ? descend_from(study, fit.parameters) : fit.parameters;
+  return nuisance;
 }
 
 }  // namespace
@@ -248,10 +220,12 @@ Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& op
     out.message = no_max_crush_message(pulse);
     return out;
   }
-  const Study study(pulses, options);
+  FitStudy study(pulses, options);
+  out.tests = describe_tests(pulses, study);
   std::vector<double> parameters = find_parameters(study, progress, out);
   if (!parameters.empty()) {
-    judge(study, parameters, out);
+    const Nuisance nuisance = correct_tests(pulses, parameters, study);
+    judge(study, parameters, nuisance, out);
     if (out.outcome == IdentifyOutcome::not_run) out.outcome = IdentifyOutcome::completed;
   }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

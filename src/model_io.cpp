@@ -147,14 +147,36 @@ Json unloading_json(const Unloading& unloading) {
   return json;
 }
 
-/// One number per ordinate, spring and damper apart, under the names of the curves.
+/// One number per fitted number, under the names of the parts.
 template <class Get>
-Json per_curve(const Identification& fit, Get get) {
-  Json curves = Json::object();
-  const std::size_t springs = fit.model.spring.knots.size();
-  for (std::size_t i = 0; i < fit.ordinates.size(); ++i)
-    curves[i < springs ? "spring" : "damper"].push_back(json_number(get(fit.ordinates[i])));
-  return curves;
+Json per_part(const Identification& fit, Get get) {
+  Json parts = Json::object();
+  for (const OrdinateReport& ordinate : fit.ordinates)
+    parts[std::string(name_of(ordinate.part))].push_back(json_number(get(ordinate)));
+  return parts;
+}
+
+/// The tests of a fit; corrections only where they were sought.
+Json tests_json(const Identification& fit) {
+  Json tests = Json::array();
+  for (const TestReport& test : fit.tests) {
+    Json json = {{"impact_speed_mps", test.impact_speed_mps},
+                 {"mass_kg", test.mass_kg},
+                 {"max_crush_m", test.max_crush_m},
+                 {"t_m_s", test.t_m_s},
+                 {"weight", test.weight},
+                 {"error", json_number(test.error.total)}};
+    const auto add = [&json](std::string_view name, double value, std::string_view error_name, double error) {
+      if (std::isnan(value)) return;
+      json[std::string(name)] = value;
+      json[std::string(error_name)] = json_number(error);
+    };
+    add("time_shift_s", test.time_shift_s, "time_shift_error_s", test.time_shift_error_s);
+    add("gain", test.gain, "gain_error", test.gain_error);
+    add("bias_mps2", test.bias_mps2, "bias_error_mps2", test.bias_error_mps2);
+    tests.push_back(json);
+  }
+  return tests;
 }
 
 template <class Is>
@@ -183,12 +205,14 @@ Json identification_json(const Identification& fit) {
                {"starts", fit.starts.size()},
                {"starts_at_best", fit.starts_at_best},
                {"verdict", verdict_json(fit.verdict)},
-               {"standard_error", per_curve(fit, [](const OrdinateReport& o) { return o.standard_error; })},
-               {"upper_bound", per_curve(fit, [](const OrdinateReport& o) { return o.upper_bound; })},
+               {"standard_error", per_part(fit, [](const OrdinateReport& o) { return o.standard_error; })},
+               {"upper_bound", per_part(fit, [](const OrdinateReport& o) { return o.upper_bound; })},
                {"at_bound", names_where(fit, [](const OrdinateReport& o) { return o.at_bound; })},
                {"untouched", names_where(fit, [](const OrdinateReport& o) { return o.untouched; })},
                {"evaluations", fit.evaluations},
                {"seed", fit.seed}};
+  json["tests"] = tests_json(fit);
+  json["smooth"] = json_number(fit.smooth);
   json["correlation"] = correlation_json(fit.correlation);
   json["start_errors"] = start_errors_json(fit.starts);
   return json;

@@ -31,10 +31,17 @@ struct Verdict {
   std::string message;                   ///< In words.
 };
 
-/// One ordinate of the result: spring first, then damper.
+/// What a number of the result belongs to.
+enum class FittedPart { spring, damper, rate, spring_knot, damper_knot };
+inline constexpr std::string_view kFittedPartNames[] = {"spring", "damper", "rate", "spring_knot", "damper_knot"};
+template <>
+inline constexpr std::span<const std::string_view> enum_names<FittedPart>{kFittedPartNames};
+
+/// One number of the result: ordinates of the spring, then of the damper, r of law `rate`, free knots.
 struct OrdinateReport {
-  std::string name;                ///< "k1".."kn", "c1".."cn".
-  double value = kUnset;           ///< [N/m], [N] or [N s/m].
+  std::string name;  ///< "k1".."kn", "c1".."cn", "r", "x2".."x(n-1)", "v2".. (law `crush_damping`: "d2"..).
+  FittedPart part = FittedPart::spring;
+  double value = kUnset;           ///< [N/m], [N], [N s/m], [-], [m] or [m/s].
   double standard_error = kUnset;  ///< Unset when the data say nothing about it.
   double upper_bound = kUnset;
   bool untouched = false;  ///< No sample depends on it: not fitted, but held as the nearest fitted one.
@@ -59,6 +66,16 @@ struct StartReport {
   bool failed = false;
 };
 
+/// One test of the fit: what of it was fitted, and the errors of its accelerometer that were found.
+struct TestReport {
+  double impact_speed_mps = kUnset, mass_kg = kUnset, max_crush_m = kUnset, t_m_s = kUnset;  ///< Measured.
+  double weight = 1.0;  ///< In E, whose mean weight is 1.
+  FitError error;       ///< Of this test.
+  // measured(t) = gain * true(t - time_shift) + bias, with standard errors; unset where not sought.
+  double time_shift_s = kUnset, gain = kUnset, bias_mps2 = kUnset;
+  double time_shift_error_s = kUnset, gain_error = kUnset, bias_error_mps2 = kUnset;
+};
+
 /// How an identification ended.
 enum class IdentifyOutcome { not_run, completed, no_max_crush, interrupted, every_start_failed, engines_disagree };
 inline constexpr std::string_view kIdentifyOutcomeNames[] = {"not_run",     "completed",          "no_max_crush",
@@ -74,6 +91,8 @@ struct Identification {
   FitError error;    ///< Its E, from the model as CVODE simulates it.
   Verdict verdict;
   std::vector<OrdinateReport> ordinates;
+  std::vector<TestReport> tests;
+  double smooth = kUnset;                        ///< Weight of the smoothing: as given, or as chosen from the data.
   std::vector<std::vector<double>> correlation;  ///< Between ordinates, in their order; unset where meaningless.
   std::vector<StartReport> starts;
   int starts_at_best = 0;   ///< Starts with E within 0.1 % of the best.

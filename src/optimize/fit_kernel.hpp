@@ -3,8 +3,12 @@
 /// derivatives.
 ///
 /// Every sensitivity s = dx/dtheta obeys m s'' = -(dF/dx) s - (dF/dv) s' - dF/dtheta. Inside a piece only the four
-/// ordinates of its two segments act (dF/dtheta != 0); all others are combinations of the two homogeneous solutions. So
-/// six columns describe any number of ordinates. Every instruction set gives the same bits.
+/// parameters of its two segments act (dF/dtheta != 0); all others are combinations of the two homogeneous solutions.
+/// So six columns describe any number of parameters. Every instruction set gives the same bits.
+///
+/// The force is a sum of features of the motion, each times its coefficient:
+///     polynomial laws    1, x, x^2;  v, v^2, x v
+///     law `rate`         H, x H, x^2 H;  L, x L, x^2 L    with L = ln(1 + per_reference v), H = 1 + rate L
 
 #include <cstddef>
 
@@ -12,17 +16,19 @@ namespace crashsim {
 
 inline constexpr int kFitDegree = 10;           ///< Of the series: that of the Taylor kernel.
 inline constexpr std::size_t kHomogeneous = 2;  ///< Columns 0, 1: from a unit displacement, from a unit velocity.
-inline constexpr std::size_t kColumns = 6;      ///< Then the acting ordinates: two of the spring, two of the damper.
+inline constexpr std::size_t kColumns = 6;      ///< Then the acting parameters: two of the spring, two of the damper.
 inline constexpr std::size_t kColumnLanes = 8;  ///< Columns padded to whole vectors.
 
 using Series = double[kFitDegree + 1];
 using Columns = double[kColumnLanes];
+inline constexpr std::size_t kFeatures = 6;  ///< The first three are the spring's, the others the damper's.
 
 /// Motion and force of a piece.
 struct FitPiece {
   Series x, v;                               ///< Motion about the start of its step.
-  double spring[3], damper[3];               ///< Force: polynomials in x and in v.
-  double basis[kColumns - kHomogeneous][3];  ///< Force per acting ordinate, likewise; zero where none acts.
+  double force[kFeatures];                   ///< Coefficients of the force.
+  double basis[kColumns - kHomogeneous][3];  ///< Of the force per acting parameter, in the features of its curve.
+  double rate, per_reference;                ///< Of law `rate`.
   double mass;
 };
 
@@ -65,5 +71,7 @@ struct FitKernel {
 };
 
 extern const FitKernel kFitKernelBaseline, kFitKernelAvx2, kFitKernelAvx512;
+extern const FitKernel
+    kRateFitKernel;  ///< Of law `rate`, in the baseline's instructions: its logarithms take the time.
 
 }  // namespace crashsim

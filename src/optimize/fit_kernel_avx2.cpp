@@ -2,6 +2,6 @@
 
 namespace crashsim {
 
-const FitKernel kFitKernelAvx2 = kKernel<4>;
+const FitKernel kFitKernelAvx2 = kKernel<PolynomialLaw, 4>;
 
 }  // namespace crashsim

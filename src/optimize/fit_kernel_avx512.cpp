@@ -2,6 +2,6 @@
 
 namespace crashsim {
 
-const FitKernel kFitKernelAvx512 = kKernel<8>;
+const FitKernel kFitKernelAvx512 = kKernel<PolynomialLaw, 8>;
 
 }  // namespace crashsim

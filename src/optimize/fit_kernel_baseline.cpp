@@ -2,6 +2,7 @@
 
 namespace crashsim {
 
-const FitKernel kFitKernelBaseline = kKernel<2>;
+const FitKernel kFitKernelBaseline = kKernel<PolynomialLaw, 2>;
+const FitKernel kRateFitKernel = kKernel<RateLaw, 2>;
 
 }  // namespace crashsim

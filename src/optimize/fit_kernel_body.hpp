@@ -14,39 +14,133 @@ CRASHSIM_INLINE double square_coefficient(const double* c, int n) {
   return n % 2 == 0 ? sum + c[n / 2] * c[n / 2] : sum;
 }
 
-/// dF/dx and dF/dv per mass, negative, and the forcing of the acting ordinates, as series.
+CRASHSIM_INLINE double product_coefficient(const double* a, const double* b, int n) {
+  double sum = 0.0;
+  for (int i = 0; i <= n; ++i) sum += a[i] * b[n - i];
+  return sum;
+}
+
+/// Features of a motion as series, and what dF/dx and dF/dv are.
+struct FeatureSeries {
+  Series features[kFeatures];
+  Series by_x, by_v;
+};
+
+/// Laws whose force is a polynomial of x and v.
+struct PolynomialLaw {
+  template <class D>
+  CRASHSIM_INLINE static void features(const FitPiece& /*piece*/, const D& x, const D& v, D (&out)[kFeatures]) {
+    out[0] = D{} + 1.0;
+    out[1] = x;
+    out[2] = x * x;
+    out[3] = v;
+    out[4] = v * v;
+    out[5] = x * v;
+  }
+  template <class D>
+  CRASHSIM_INLINE static D by_x(const FitPiece& piece, const D (&features)[kFeatures]) {
+    return piece.force[1] + 2.0 * piece.force[2] * features[1] + piece.force[5] * features[3];
+  }
+  template <class D>
+  CRASHSIM_INLINE static D by_v(const FitPiece& piece, const D (&features)[kFeatures], const D& /*v*/) {
+    return piece.force[3] + 2.0 * piece.force[4] * features[3] + piece.force[5] * features[1];
+  }
+  CRASHSIM_INLINE static void series(const FitPiece& piece, FeatureSeries& out) {
+    const double* const force = piece.force;
+#pragma GCC unroll 16
+    for (int n = 0; n < kFitDegree; ++n) {
+      const double one = n == 0 ? 1.0 : 0.0;
+      out.features[0][n] = one;
+      out.features[1][n] = piece.x[n];
+      out.features[2][n] = square_coefficient(piece.x, n);
+      out.features[3][n] = piece.v[n];
+      out.features[4][n] = square_coefficient(piece.v, n);
+      out.features[5][n] = product_coefficient(piece.x, piece.v, n);
+      out.by_x[n] = one * force[1] + 2.0 * force[2] * piece.x[n] + force[5] * piece.v[n];
+      out.by_v[n] = one * force[3] + 2.0 * force[4] * piece.v[n] + force[5] * piece.x[n];
+    }
+  }
+};
+
+/// Law `rate`.
+struct RateLaw {
+  template <class D>
+  CRASHSIM_INLINE static void features(const FitPiece& piece, const D& x, const D& v, D (&out)[kFeatures]) {
+    D log;
+    for (std::size_t l = 0; l < sizeof(D) / sizeof(double); ++l) log[l] = __builtin_log1p(piece.per_reference * v[l]);
+    out[0] = 1.0 + piece.rate * log;
+    out[1] = x * out[0];
+    out[2] = x * out[1];
+    out[3] = log;
+    out[4] = x * log;
+    out[5] = x * out[4];
+  }
+  template <class D>
+  CRASHSIM_INLINE static D by_x(const FitPiece& piece, const D (&features)[kFeatures]) {
+    return piece.force[1] * features[0] + 2.0 * piece.force[2] * features[1];
+  }
+  template <class D>
+  CRASHSIM_INLINE static D by_v(const FitPiece& piece, const D (&features)[kFeatures], const D& v) {
+    const D hardened = piece.force[0] * features[0] + piece.force[1] * features[1] + piece.force[2] * features[2];
+    return hardened / features[0] * (piece.rate * piece.per_reference) / (1.0 + piece.per_reference * v);
+  }
+  CRASHSIM_INLINE static void series(const FitPiece& piece, FeatureSeries& out) {
+    Series argument, log, per_argument, square, spring;  // argument w = 1 + per_reference v; w L' = w', w / w = 1
+    const double* const force = piece.force;
+    for (int n = 0; n < kFitDegree; ++n) {
+      argument[n] = piece.per_reference * piece.v[n] + (n == 0 ? 1.0 : 0.0);
+      double by_log = 0.0, by_inverse = 0.0;
+      for (int j = 1; j < n; ++j) by_log += static_cast<double>(j) * log[j] * argument[n - j];
+      for (int j = 1; j <= n; ++j) by_inverse += argument[j] * per_argument[n - j];
+      log[n] = n == 0 ? __builtin_log1p(piece.per_reference * piece.v[0])
+                      : (argument[n] - by_log / static_cast<double>(n)) / argument[0];
+      per_argument[n] = ((n == 0 ? 1.0 : 0.0) - by_inverse) / argument[0];
+      square[n] = square_coefficient(piece.x, n);
+      spring[n] = (n == 0 ? force[0] : 0.0) + force[1] * piece.x[n] + force[2] * square[n];
+      out.features[0][n] = piece.rate * log[n] + (n == 0 ? 1.0 : 0.0);
+      out.features[3][n] = log[n];
+    }
+    for (int n = 0; n < kFitDegree; ++n) {
+      for (std::size_t factor = 0; factor < kFeatures; factor += 3) {
+        out.features[factor + 1][n] = product_coefficient(piece.x, out.features[factor], n);
+        out.features[factor + 2][n] = product_coefficient(square, out.features[factor], n);
+      }
+      out.by_x[n] = force[1] * out.features[0][n] + 2.0 * force[2] * out.features[1][n];
+      out.by_v[n] = piece.rate * piece.per_reference * product_coefficient(spring, per_argument, n);
+    }
+  }
+};
+
+/// dF/dx and dF/dv per mass, negative, and the forcing of the acting parameters, as series.
 struct Coupling {
   Series alpha, beta;
   Columns forcing[kFitDegree];
 };
 
+template <class Law>
 CRASHSIM_INLINE void set_coupling(const FitPiece& piece, Coupling& out) {
+  FeatureSeries series;
+  Law::series(piece, series);
   const double per_mass = -1.0 / piece.mass;
-  const double x2 = 2.0 * per_mass * piece.spring[2], v2 = 2.0 * per_mass * piece.damper[2];
 #pragma GCC unroll 16
   for (int n = 0; n < kFitDegree; ++n) {
-    out.alpha[n] = x2 * piece.x[n];
-    out.beta[n] = v2 * piece.v[n];
-    const double xx = square_coefficient(piece.x, n), vv = square_coefficient(piece.v, n);
+    out.alpha[n] = per_mass * series.by_x[n];
+    out.beta[n] = per_mass * series.by_v[n];
     for (std::size_t c = 0; c < kColumnLanes; ++c) out.forcing[n][c] = 0.0;
-    for (std::size_t j = 0; j < 2; ++j) {
-      const double *const spring = piece.basis[j], *const damper = piece.basis[2 + j];
-      out.forcing[n][2 + j] = per_mass * (spring[1] * piece.x[n] + spring[2] * xx);
-      out.forcing[n][4 + j] = per_mass * (damper[1] * piece.v[n] + damper[2] * vv);
-      if (n > 0) continue;
-      out.forcing[0][2 + j] += per_mass * spring[0];
-      out.forcing[0][4 + j] += per_mass * damper[0];
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double* const basis = piece.basis[j];
+      const Series* const features = series.features + (j < 2 ? 0 : 3);
+      out.forcing[n][2 + j] =
+          per_mass * (basis[0] * features[0][n] + basis[1] * features[1][n] + basis[2] * features[2][n]);
     }
   }
-  out.alpha[0] += per_mass * piece.spring[1];
-  out.beta[0] += per_mass * piece.damper[1];
 }
 
-template <std::size_t W>
+template <class Law, std::size_t W>
 CRASHSIM_INLINE void sensitivities(const FitPiece& piece, SensitivitySeries& series) {
   using D = typename Vectors<W>::Doubles;
   Coupling coupling;
-  set_coupling(piece, coupling);
+  set_coupling<Law>(piece, coupling);
   constexpr Columns kUnitX = {1.0}, kUnitV = {0.0, 1.0};
   for (std::size_t first = 0; first < kColumns; first += W) {
     D x[kFitDegree + 1], v[kFitDegree + 1];
@@ -128,11 +222,11 @@ CRASHSIM_INLINE void clear_beyond(std::size_t count, Penalised<D>& out) {
 /// Motion of W samples, from `at` on, with their residuals penalised; zero for those beyond the last.
 template <class D>
 struct Sampled {
-  D tau, x, v;
+  D tau, v, features[kFeatures];
   Penalised<D> by_x, by_v, by_a;
 };
 
-template <Penalty::Kind kKind, class D>
+template <class Law, Penalty::Kind kKind, class D>
 CRASHSIM_INLINE Sampled<D> sample(const FitPiece& piece, const FitSamples& samples, std::size_t at,
                                   const Penalty& penalty) {
   Sampled<D> out;
@@ -143,11 +237,12 @@ CRASHSIM_INLINE Sampled<D> sample(const FitPiece& piece, const FitSamples& sampl
     x = x * tau + piece.x[n];
     v = v * tau + piece.v[n];
   }
-  const D spring = piece.spring[0] + x * (piece.spring[1] + x * piece.spring[2]);
-  const D damper = piece.damper[0] + v * (piece.damper[1] + v * piece.damper[2]);
-  const D a = (spring + damper) * (-1.0 / piece.mass);
+  Law::features(piece, x, v, out.features);
+  D force = D{};
+#pragma GCC unroll 6
+  for (std::size_t i = 0; i < kFeatures; ++i) force += piece.force[i] * out.features[i];
+  const D a = force * (-1.0 / piece.mass);
   out.tau = tau;
-  out.x = x;
   out.v = v;
   out.by_x = penalise<kKind, D>(x - load<D>(samples.displacement + at), penalty.displacement_scale,
                                 penalty.displacement_rounding);
@@ -165,7 +260,7 @@ CRASHSIM_INLINE double sum_of(const Columns& lanes) {
   return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
 }
 
-template <Penalty::Kind kKind, std::size_t W>
+template <class Law, Penalty::Kind kKind, std::size_t W>
 CRASHSIM_INLINE void sum_losses(const FitPiece& piece, const FitSamples& samples, const Penalty& penalty,
                                 PieceLoss& out) {
   using D = typename Vectors<W>::Doubles;
@@ -173,7 +268,7 @@ CRASHSIM_INLINE void sum_losses(const FitPiece& piece, const FitSamples& samples
   for (std::size_t first = 0; first < kColumnLanes; first += W) {
     D sum = D{};
     for (std::size_t at = first; at < samples.count; at += kColumnLanes) {
-      const Sampled<D> here = sample<kKind, D>(piece, samples, at, penalty);
+      const Sampled<D> here = sample<Law, kKind, D>(piece, samples, at, penalty);
       sum += here.by_x.loss + here.by_v.loss + here.by_a.loss;
     }
     store(sum, sums + first);
@@ -182,36 +277,34 @@ CRASHSIM_INLINE void sum_losses(const FitPiece& piece, const FitSamples& samples
 }
 
 /// Sums over samples, lanes still apart: losses; derivatives by x and v times powers of tau; derivatives by a times
-/// powers of x and v. With these the gradient's cost per sample does not depend on the number of parameters.
+/// the features. With these the gradient's cost per sample does not depend on the number of parameters.
 struct Moments {
   Columns loss;
   Columns x[kFitDegree + 1], v[kFitDegree + 1];
-  Columns a, ax, axx, av, avv;
+  Columns a[kFeatures];
 };
 
-template <Penalty::Kind kKind, std::size_t W>
+template <class Law, Penalty::Kind kKind, std::size_t W>
 CRASHSIM_INLINE void sum_moments(const FitPiece& piece, const FitSamples& samples, const Penalty& penalty,
                                  Moments& out) {
   using D = typename Vectors<W>::Doubles;
   const double per_mass = -1.0 / piece.mass;
   for (std::size_t first = 0; first < kColumnLanes; first += W) {
-    D loss = D{}, a = D{}, ax = D{}, axx = D{}, av = D{}, avv = D{};
+    D loss = D{}, a[kFeatures];
+#pragma GCC unroll 6
+    for (std::size_t i = 0; i < kFeatures; ++i) a[i] = D{};
     D x[kFitDegree + 1], v[kFitDegree + 1];
 #pragma GCC unroll 16
     for (int n = 0; n <= kFitDegree; ++n) x[n] = v[n] = D{};
     for (std::size_t at = first; at < samples.count; at += kColumnLanes) {
-      const Sampled<D> here = sample<kKind, D>(piece, samples, at, penalty);
+      const Sampled<D> here = sample<Law, kKind, D>(piece, samples, at, penalty);
       loss += here.by_x.loss + here.by_v.loss + here.by_a.loss;
-      // a follows from x and v, and from the ordinates themselves.
+      // a follows from x and v, and from the parameters themselves.
       const D ga = here.by_a.derivative;
-      D gx = here.by_x.derivative + ga * (per_mass * (piece.spring[1] + 2.0 * piece.spring[2] * here.x));
-      D gv = here.by_v.derivative + ga * (per_mass * (piece.damper[1] + 2.0 * piece.damper[2] * here.v));
-      const D gax = ga * here.x, gav = ga * here.v;
-      a += ga;
-      ax += gax;
-      axx += gax * here.x;
-      av += gav;
-      avv += gav * here.v;
+      D gx = here.by_x.derivative + ga * (per_mass * Law::by_x(piece, here.features));
+      D gv = here.by_v.derivative + ga * (per_mass * Law::by_v(piece, here.features, here.v));
+#pragma GCC unroll 6
+      for (std::size_t i = 0; i < kFeatures; ++i) a[i] += ga * here.features[i];
 #pragma GCC unroll 16
       for (int n = 0; n <= kFitDegree; ++n) {
         x[n] += gx;
@@ -221,11 +314,7 @@ CRASHSIM_INLINE void sum_moments(const FitPiece& piece, const FitSamples& sample
       }
     }
     store(loss, out.loss + first);
-    store(a, out.a + first);
-    store(ax, out.ax + first);
-    store(axx, out.axx + first);
-    store(av, out.av + first);
-    store(avv, out.avv + first);
+    for (std::size_t i = 0; i < kFeatures; ++i) store(a[i], out.a[i] + first);
     for (int n = 0; n <= kFitDegree; ++n) {
       store(x[n], out.x[n] + first);
       store(v[n], out.v[n] + first);
@@ -233,23 +322,23 @@ CRASHSIM_INLINE void sum_moments(const FitPiece& piece, const FitSamples& sample
   }
 }
 
-/// Forcing of acceleration by each acting ordinate, given sums or values of 1, x, x^2 and v, v^2.
-CRASHSIM_INLINE void add_forcing(const FitPiece& piece, const double (&of_x)[3], const double (&of_v)[3],
-                                 Columns& out) {
+/// Forcing of acceleration by each acting parameter, given sums of the features.
+CRASHSIM_INLINE void add_forcing(const FitPiece& piece, const Moments& moments, Columns& out) {
+  double sums[kFeatures];
+  for (std::size_t i = 0; i < kFeatures; ++i) sums[i] = sum_of(moments.a[i]);
   const double per_mass = -1.0 / piece.mass;
-  for (std::size_t j = 0; j < 2; ++j) {
-    const double *const spring = piece.basis[j], *const damper = piece.basis[2 + j];
-    out[2 + j] += per_mass * (spring[0] * of_x[0] + spring[1] * of_x[1] + spring[2] * of_x[2]);
-    out[4 + j] += per_mass * (damper[0] * of_v[0] + damper[1] * of_v[1] + damper[2] * of_v[2]);
+  for (std::size_t j = 0; j < 4; ++j) {
+    const double *const basis = piece.basis[j], *const of = sums + (j < 2 ? 0 : 3);
+    out[2 + j] += per_mass * (basis[0] * of[0] + basis[1] * of[1] + basis[2] * of[2]);
   }
 }
 
-template <Penalty::Kind kKind, std::size_t W>
+template <class Law, Penalty::Kind kKind, std::size_t W>
 CRASHSIM_INLINE void sum_gradient(const FitPiece& piece, const SensitivitySeries& series, const FitSamples& samples,
                                   const Penalty& penalty, PieceLoss& out) {
   using D = typename Vectors<W>::Doubles;
   Moments moments;
-  sum_moments<kKind, W>(piece, samples, penalty, moments);
+  sum_moments<Law, kKind, W>(piece, samples, penalty, moments);
   out.sum = sum_of(moments.loss);
   Series by_x, by_v;
   for (int n = 0; n <= kFitDegree; ++n) {
@@ -263,9 +352,7 @@ CRASHSIM_INLINE void sum_gradient(const FitPiece& piece, const SensitivitySeries
         sum += by_x[n] * load<D>(series.x[n] + first) + by_v[n] * load<D>(series.v[n] + first);
     store(sum, out.gradient + first);
   }
-  const double a = sum_of(moments.a);
-  add_forcing(piece, {a, sum_of(moments.ax), sum_of(moments.axx)}, {a, sum_of(moments.av), sum_of(moments.avv)},
-              out.gradient);
+  add_forcing(piece, moments, out.gradient);
 }
 
 /// Columns of acceleration, velocity and displacement at W samples.
@@ -274,12 +361,12 @@ struct SampledColumns {
   D a[kColumns], v[kColumns], x[kColumns];
 };
 
-template <class D>
+template <class Law, class D>
 CRASHSIM_INLINE void sample_columns(const FitPiece& piece, const SensitivitySeries& series, const Sampled<D>& here,
                                     SampledColumns<D>& out) {
   const double per_mass = -1.0 / piece.mass;
-  const D alpha = per_mass * (piece.spring[1] + 2.0 * piece.spring[2] * here.x);
-  const D beta = per_mass * (piece.damper[1] + 2.0 * piece.damper[2] * here.v);
+  const D alpha = per_mass * Law::by_x(piece, here.features);
+  const D beta = per_mass * Law::by_v(piece, here.features, here.v);
 #pragma GCC unroll 6
   for (std::size_t c = 0; c < kColumns; ++c) {
     D x = D{} + series.x[kFitDegree][c], v = D{} + series.v[kFitDegree][c];
@@ -291,8 +378,8 @@ CRASHSIM_INLINE void sample_columns(const FitPiece& piece, const SensitivitySeri
     D a = alpha * x + beta * v;
     if (c >= kHomogeneous) {
       const double* const basis = piece.basis[c - kHomogeneous];
-      const D s = c < kHomogeneous + 2 ? here.x : here.v;
-      a += per_mass * (basis[0] + s * (basis[1] + s * basis[2]));
+      const D* const of = here.features + (c < kHomogeneous + 2 ? 0 : 3);
+      a += per_mass * (basis[0] * of[0] + basis[1] * of[1] + basis[2] * of[2]);
     }
     out.a[c] = a;
     out.v[c] = v;
@@ -300,7 +387,7 @@ CRASHSIM_INLINE void sample_columns(const FitPiece& piece, const SensitivitySeri
   }
 }
 
-template <Penalty::Kind kKind, std::size_t W>
+template <class Law, Penalty::Kind kKind, std::size_t W>
 CRASHSIM_INLINE void sum_normal_equations(const FitPiece& piece, const SensitivitySeries& series,
                                           const FitSamples& samples, const Penalty& penalty, PieceLoss& out) {
   using D = typename Vectors<W>::Doubles;
@@ -314,9 +401,9 @@ CRASHSIM_INLINE void sum_normal_equations(const FitPiece& piece, const Sensitivi
       for (std::size_t c = row; c < kColumns; ++c) hessian[row][c] = D{};
     }
     for (std::size_t at = first; at < samples.count; at += kColumnLanes) {
-      const Sampled<D> here = sample<kKind, D>(piece, samples, at, penalty);
+      const Sampled<D> here = sample<Law, kKind, D>(piece, samples, at, penalty);
       SampledColumns<D> columns;
-      sample_columns(piece, series, here, columns);
+      sample_columns<Law>(piece, series, here, columns);
       loss += here.by_x.loss + here.by_v.loss + here.by_a.loss;
 #pragma GCC unroll 6
       for (std::size_t row = 0; row < kColumns; ++row) {
@@ -360,22 +447,23 @@ CRASHSIM_INLINE void for_kind(Penalty::Kind kind, const F& f) {
   }
 }
 
-template <std::size_t W>
+template <class Law, std::size_t W>
 constexpr FitKernel kKernel = {
-    [](const FitPiece& piece, SensitivitySeries& series) { sensitivities<W>(piece, series); },
+    [](const FitPiece& piece, SensitivitySeries& series) { sensitivities<Law, W>(piece, series); },
     [](const SensitivitySeries& series, double tau, Columns& x, Columns& v) { columns_at<W>(series, tau, x, v); },
     [](const FitPiece& piece, const FitSamples& samples, const Penalty& penalty, PieceLoss& out) {
-      for_kind(penalty.kind, [&]<Penalty::Kind kKind>() { sum_losses<kKind, W>(piece, samples, penalty, out); });
+      for_kind(penalty.kind, [&]<Penalty::Kind kKind>() { sum_losses<Law, kKind, W>(piece, samples, penalty, out); });
     },
     [](const FitPiece& piece, const SensitivitySeries& series, const FitSamples& samples, const Penalty& penalty,
        PieceLoss& out) {
       for_kind(penalty.kind,
-               [&]<Penalty::Kind kKind>() { sum_gradient<kKind, W>(piece, series, samples, penalty, out); });
+               [&]<Penalty::Kind kKind>() { sum_gradient<Law, kKind, W>(piece, series, samples, penalty, out); });
     },
     [](const FitPiece& piece, const SensitivitySeries& series, const FitSamples& samples, const Penalty& penalty,
        PieceLoss& out) {
-      for_kind(penalty.kind,
-               [&]<Penalty::Kind kKind>() { sum_normal_equations<kKind, W>(piece, series, samples, penalty, out); });
+      for_kind(penalty.kind, [&]<Penalty::Kind kKind>() {
+        sum_normal_equations<Law, kKind, W>(piece, series, samples, penalty, out);
+      });
     }};
 
 }  // namespace

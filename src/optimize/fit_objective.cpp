@@ -15,10 +15,10 @@ constexpr double kTolerance = 1e-10;  // of a step, relative to the impact speed
 
 static_assert(kFitDegree == kTaylorDegree);
 
-const FitKernel& fit_kernel() {
+const FitKernel& fit_kernel(CrushLaw law) {
   static const FitKernel& kernel =
       KernelChoice<FitKernel>{kFitKernelBaseline, kFitKernelAvx2, kFitKernelAvx512}(widest_instruction_set());
-  return kernel;
+  return law == CrushLaw::rate ? kRateFitKernel : kernel;
 }
 
 Penalty penalty_of(const FitTarget& target, Loss loss, double smoothing) {
@@ -70,7 +70,7 @@ class FitObjective::Walk {
     const double t_end = step.base + tau_end;
     while (next_ < samples_.count && samples_.time[next_] <= t_end) ++next_;
     set_piece(region, step);
-    if (with_) fit_kernel().sensitivities(fit_.piece_, fit_.series_);
+    if (with_) fit_.kernel_->sensitivities(fit_.piece_, fit_.series_);
     if (next_ > first)
       on_samples_(FitSamples{&samples_.time[first], &samples_.accel[first], &samples_.velocity[first],
                              &samples_.displacement[first], next_ - first, step.base});
@@ -84,7 +84,7 @@ class FitObjective::Walk {
     const double accel_before = acceleration(problem_, before, x, v), accel_after = acceleration(problem_, after, x, v);
     if (std::fabs(accel_before - accel_after) <= kJump * std::fabs(accel_before)) return;
     const double jump = (accel_before - accel_after) / v;
-    for (std::size_t p = 0; p < fit_.size_; ++p) fit_.by_v_[p] -= jump * fit_.by_x_[p];
+    for (std::size_t p = 0; p < fit_.by_v_.size(); ++p) fit_.by_v_[p] -= jump * fit_.by_x_[p];
   }
 
  private:
@@ -93,37 +93,33 @@ class FitObjective::Walk {
     const RegionForce force = region_force(problem_, region);
     std::copy_n(step.x.begin(), kFitDegree + 1, piece.x);
     std::copy_n(step.v.begin(), kFitDegree + 1, piece.v);
-    std::copy(force.spring.begin(), force.spring.end(), piece.spring);
-    std::copy(force.damper.begin(), force.damper.end(), piece.damper);
+    std::copy(force.spring.begin(), force.spring.end(), piece.force);
+    piece.force[3] = force.damper[1];
+    piece.force[4] = force.damper[2];
+    piece.force[5] = force.cross;
+    piece.rate = force.rate;
+    piece.per_reference = force.per_reference;
     piece.mass = problem_.mass_kg;
     if (!with_) return;
-    const ForceAxis &spring = problem_.force.spring, &damper = problem_.force.damper;
-    for (std::size_t j = 0; j < 2; ++j) {
-      set_basis(region.separated, spring.segments[static_cast<std::size_t>(region.spring)][j], 0, j);
-      set_basis(region.separated, damper.segments[static_cast<std::size_t>(region.damper)][j],
-                static_cast<int>(fit_.spring_count_), 2 + j);
+    fit_.force_.set_action(region.spring, region.damper, fit_.action_);
+    if (region.separated) {
+      fit_.action_.count = 0;
+      std::fill_n(&fit_.action_.basis[0][0], kActingColumns * 3, 0.0);
     }
-  }
-
-  void set_basis(bool separated, const OrdinateBasis& basis, int offset, std::size_t column) {
-    const bool acts = basis.ordinate >= 0 && !separated;
-    fit_.acting_[column] = acts ? offset + basis.ordinate : -1;
-    for (std::size_t i = 0; i < 3; ++i) fit_.piece_.basis[column][i] = acts ? basis.c[i] : 0.0;
+    std::copy_n(&fit_.action_.basis[0][0], kActingColumns * 3, &piece.basis[0][0]);
   }
 
   void advance(double tau) {
     Columns x, v;
-    fit_kernel().columns_at(fit_.series_, tau, x, v);
-    for (std::size_t p = 0; p < fit_.size_; ++p) {
+    fit_.kernel_->columns_at(fit_.series_, tau, x, v);
+    for (std::size_t p = 0; p < fit_.by_x_.size(); ++p) {
       const double by_x = fit_.by_x_[p], by_v = fit_.by_v_[p];
       fit_.by_x_[p] = x[0] * by_x + x[1] * by_v;
       fit_.by_v_[p] = v[0] * by_x + v[1] * by_v;
     }
-    for (std::size_t j = 0; j < fit_.acting_.size(); ++j) {
-      if (fit_.acting_[j] < 0) continue;
-      const auto p = static_cast<std::size_t>(fit_.acting_[j]);
-      fit_.by_x_[p] += x[kHomogeneous + j];
-      fit_.by_v_[p] += v[kHomogeneous + j];
+    for (const auto& [parameter, column, factor] : fit_.action_.entries()) {
+      fit_.by_x_[parameter] += factor * x[kHomogeneous + column];
+      fit_.by_v_[parameter] += factor * v[kHomogeneous + column];
     }
   }
 
@@ -135,86 +131,80 @@ class FitObjective::Walk {
   std::size_t next_ = 0;
 };
 
-ForceScale force_scale(CrushLaw law, std::span<const FitTarget> targets) {
-  double force = 0.0, crush = 0.0, speed = 0.0;
-  for (const FitTarget& target : targets) {
-    for (const double a : target.accel_mps2) force = std::max(force, target.mass_kg * std::fabs(a));
-    crush = std::max(crush, target.max_crush_m);
-    speed = std::max(speed, target.impact_speed_mps);
-  }
-  return {law == CrushLaw::stiffness ? force / crush : force, force / speed};
-}
-
-CrushModel make_model(const FitStructure& structure, std::span<const double> parameters, double mass_kg,
-                      double impact_speed_mps) {
-  const auto split = parameters.begin() + static_cast<std::ptrdiff_t>(structure.spring_knots.size());
-  CrushModel model;
-  model.mass_kg = mass_kg;
-  model.impact_speed_mps = impact_speed_mps;
-  model.law = structure.law;
-  model.spring = {structure.spring_knots, {parameters.begin(), split}};
-  model.damper = {structure.damper_knots, {split, parameters.end()}};
-  return model;
-}
-
-FitObjective::FitObjective(const FitStructure& structure, std::span<const FitTarget> targets, Loss loss, double smooth)
+FitObjective::FitObjective(const FitStructure& structure, std::span<const FitTarget> targets, Loss loss, double smooth,
+                           const Prior& prior)
     : targets_(targets),
       loss_(loss),
-      smooth_(smooth),
-      spring_count_(structure.spring_knots.size()),
       size_(structure.size()),
-      scale_(force_scale(structure.law, targets)),
-      by_x_(size_),
-      by_v_(size_) {
+      kernel_(&fit_kernel(structure.law)),
+      force_(structure),
+      penalties_(make_penalties(structure, force_scale(structure.law, targets), smooth, prior)),
+      by_x_(force_.inner_size()),
+      by_v_(force_.inner_size()) {
   for (const FitTarget& target : targets)
     samples_.push_back({padded(target.time_s), padded(target.accel_mps2), padded(target.velocity_mps),
                         padded(target.displacement_m), target.time_s.size()});
-  force_ = make_force({structure.law, Extrapolation::constant, structure.spring_knots, structure.damper_knots});
+  if (!is_table()) return;
+  inner_gradient_.resize(force_.inner_size());
+  inner_hessian_.resize(force_.by_parameters().rows(), force_.by_parameters().rows());
 }
 
-void FitObjective::set(std::span<const double> parameters) {
-  force_.set_ordinates(parameters.first(spring_count_), parameters.subspan(spring_count_));
+std::span<double> FitObjective::inner(std::span<double> gradient) {
+  if (gradient.empty() || !is_table()) return gradient;
+  std::fill(inner_gradient_.begin(), inner_gradient_.end(), 0.0);
+  return inner_gradient_;
+}
+
+void FitObjective::to_parameters(std::span<double> gradient) const {
+  if (gradient.empty() || !is_table()) return;
+  const Eigen::Map<const Eigen::VectorXd> by_inner(inner_gradient_.data(), force_.by_parameters().rows());
+  Eigen::Map<Eigen::VectorXd>(gradient.data(), force_.by_parameters().cols()).noalias() =
+      force_.by_parameters().transpose() * by_inner;
 }
 
 template <class OnSamples>
 bool FitObjective::walk(std::size_t index, bool with_sensitivities, const OnSamples& on_samples) {
   const FitTarget& target = targets_[index];
-  const CrushProblem problem{force_, target.mass_kg, target.impact_speed_mps, {}};
+  const CrushProblem problem{force_.force(), target.mass_kg, target.impact_speed_mps, {}};
   TaylorStepper stepper(kTolerance, false);
   Walk visitor(*this, problem, samples_[index], with_sensitivities, on_samples);
   return integrate_motion(problem, {target.time_s.back(), false}, stepper, visitor).end == MotionEnd::end_time;
 }
 
 void FitObjective::add_gradient(const Columns& columns, double weight, std::span<double> gradient) const {
-  for (std::size_t p = 0; p < size_; ++p) gradient[p] += weight * (columns[0] * by_x_[p] + columns[1] * by_v_[p]);
-  for (std::size_t j = 0; j < acting_.size(); ++j)
-    if (acting_[j] >= 0) gradient[static_cast<std::size_t>(acting_[j])] += weight * columns[kHomogeneous + j];
+  for (std::size_t p = 0; p < by_x_.size(); ++p)
+    gradient[p] += weight * (columns[0] * by_x_[p] + columns[1] * by_v_[p]);
+  for (const auto& [parameter, column, factor] : action_.entries())
+    gradient[parameter] += weight * factor * columns[kHomogeneous + column];
 }
 
 void FitObjective::add_hessian(const PieceLoss& loss, double weight, Eigen::MatrixXd& hessian) const {
   const auto& g = loss.hessian;
-  for (std::size_t q = 0; q < size_; ++q) {
+  const std::size_t size = by_x_.size();
+  for (std::size_t q = 0; q < size; ++q) {
     const double by_x = weight * (g[0][0] * by_x_[q] + g[0][1] * by_v_[q]);
     const double by_v = weight * (g[0][1] * by_x_[q] + g[1][1] * by_v_[q]);
     double* const column = &hessian(0, static_cast<Eigen::Index>(q));
-    for (std::size_t p = 0; p < size_; ++p) column[p] += by_x * by_x_[p] + by_v * by_v_[p];
+    for (std::size_t p = 0; p < size; ++p) column[p] += by_x * by_x_[p] + by_v * by_v_[p];
   }
-  for (std::size_t j = 0; j < acting_.size(); ++j) {
-    if (acting_[j] < 0) continue;
-    const std::size_t column = kHomogeneous + j;
-    for (std::size_t q = 0; q < size_; ++q) {
-      const double both = weight * (g[0][column] * by_x_[q] + g[1][column] * by_v_[q]);
-      hessian(acting_[j], static_cast<Eigen::Index>(q)) += both;
-      hessian(static_cast<Eigen::Index>(q), acting_[j]) += both;
+  for (const auto& [parameter, acting, factor] : action_.entries()) {
+    const std::size_t column = kHomogeneous + acting;
+    const auto row = static_cast<Eigen::Index>(parameter);
+    for (std::size_t q = 0; q < size; ++q) {
+      const double both = weight * factor * (g[0][column] * by_x_[q] + g[1][column] * by_v_[q]);
+      hessian(row, static_cast<Eigen::Index>(q)) += both;
+      hessian(static_cast<Eigen::Index>(q), row) += both;
     }
-    for (std::size_t k = 0; k < acting_.size(); ++k)
-      if (acting_[k] >= 0) hessian(acting_[j], acting_[k]) += weight * g[column][kHomogeneous + k];
+    for (const auto& other : action_.entries())
+      hessian(row, static_cast<Eigen::Index>(other.parameter)) +=
+          weight * factor * other.factor * g[column][kHomogeneous + other.column];
   }
 }
 
 double FitObjective::evaluate(std::span<const double> parameters, double smoothing, std::span<double> gradient) {
-  set(parameters);
+  force_.set(parameters);
   std::fill(gradient.begin(), gradient.end(), 0.0);
+  const std::span<double> by_inner = inner(gradient);
   double total = 0.0;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const FitTarget& target = targets_[i];
@@ -223,23 +213,26 @@ double FitObjective::evaluate(std::span<const double> parameters, double smoothi
     const bool has_ended = walk(i, !gradient.empty(), [&](const FitSamples& samples) {
       PieceLoss loss;
       if (gradient.empty()) {
-        fit_kernel().loss(piece_, samples, penalty, loss);
+        kernel_->loss(piece_, samples, penalty, loss);
       } else {
-        fit_kernel().loss_and_gradient(piece_, series_, samples, penalty, loss);
-        add_gradient(loss.gradient, weight, gradient);
+        kernel_->loss_and_gradient(piece_, series_, samples, penalty, loss);
+        add_gradient(loss.gradient, weight, by_inner);
       }
       total += weight * loss.sum;
     });
     if (!has_ended) return std::numeric_limits<double>::infinity();
   }
-  return total + roughness(parameters, gradient);
+  to_parameters(gradient);
+  return total + penalty(parameters, gradient);
 }
 
 double FitObjective::normal_equations(std::span<const double> parameters, double smoothing, std::span<double> gradient,
                                       Eigen::MatrixXd& hessian) {
-  set(parameters);
+  force_.set(parameters);
   std::fill(gradient.begin(), gradient.end(), 0.0);
-  hessian.setZero();
+  const std::span<double> by_inner = inner(gradient);
+  Eigen::MatrixXd& by_inner_twice = is_table() ? inner_hessian_ : hessian;
+  by_inner_twice.setZero();
   double total = 0.0;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const FitTarget& target = targets_[i];
@@ -247,58 +240,39 @@ double FitObjective::normal_equations(std::span<const double> parameters, double
     const double weight = target.factor / static_cast<double>(targets_.size());
     const bool has_ended = walk(i, true, [&](const FitSamples& samples) {
       PieceLoss loss;
-      fit_kernel().normal_equations(piece_, series_, samples, penalty, loss);
-      add_gradient(loss.gradient, weight, gradient);
-      add_hessian(loss, weight, hessian);
+      kernel_->normal_equations(piece_, series_, samples, penalty, loss);
+      add_gradient(loss.gradient, weight, by_inner);
+      add_hessian(loss, weight, by_inner_twice);
       total += weight * loss.sum;
     });
     if (!has_ended) return std::numeric_limits<double>::infinity();
   }
-  const Eigen::MatrixXd rough = roughness_rows();  // of the targets' sum
-  if (rough.rows() > 0) hessian.noalias() += 2.0 / static_cast<double>(targets_.size()) * rough.transpose() * rough;
-  return total + roughness(parameters, gradient);
+  if (is_table()) hessian.noalias() = force_.by_parameters().transpose() * inner_hessian_ * force_.by_parameters();
+  to_parameters(gradient);
+  if (penalties_.rows.rows() > 0) hessian.noalias() += 2.0 * penalties_.rows.transpose() * penalties_.rows;
+  return total + penalty(parameters, gradient);
 }
 
-double FitObjective::roughness(std::span<const double> parameters, std::span<double> gradient) const {
-  if (smooth_ == 0.0) return 0.0;
-  double sum = 0.0;
-  const auto add_curve = [&](std::size_t first, std::size_t count, double scale) {
-    for (std::size_t i = first; i + 2 < first + count; ++i) {
-      const double d = (parameters[i] - 2.0 * parameters[i + 1] + parameters[i + 2]) / scale;
-      sum += smooth_ * d * d;
-      if (gradient.empty()) continue;
-      const double g = 2.0 * smooth_ * d / scale;
-      gradient[i] += g;
-      gradient[i + 1] -= 2.0 * g;
-      gradient[i + 2] += g;
-    }
-  };
-  add_curve(0, spring_count_, scale_.spring);
-  add_curve(spring_count_, size_ - spring_count_, scale_.damper);
-  return sum;
+double FitObjective::penalty(std::span<const double> parameters, std::span<double> gradient) const {
+  if (penalties_.rows.rows() == 0) return 0.0;
+  const Eigen::Map<const Eigen::VectorXd> p(parameters.data(), penalties_.rows.cols());
+  const Eigen::VectorXd deviation = penalties_.rows * p - penalties_.aims;
+  if (!gradient.empty())
+    Eigen::Map<Eigen::VectorXd>(gradient.data(), p.size()).noalias() += 2.0 * penalties_.rows.transpose() * deviation;
+  return deviation.squaredNorm();
 }
 
-Eigen::MatrixXd FitObjective::roughness_rows() const {
-  const auto rows_of = [](std::size_t knots) { return static_cast<Eigen::Index>(knots < 3 ? 0 : knots - 2); };
-  const Eigen::Index springs = rows_of(spring_count_), dampers = rows_of(size_ - spring_count_);
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(smooth_ > 0.0 ? springs + dampers : 0, static_cast<Eigen::Index>(size_));
-  const double root = std::sqrt(smooth_ * static_cast<double>(targets_.size()));  // jacobian() is of the targets' sum
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    const bool is_spring = row < springs;
-    const Eigen::Index first = is_spring ? row : static_cast<Eigen::Index>(spring_count_) + row - springs;
-    rows.block(row, first, 1, 3) << 1.0, -2.0, 1.0;
-    rows.row(row) *= root / (is_spring ? scale_.spring : scale_.damper);
-  }
-  return rows;
+Eigen::MatrixXd FitObjective::penalty_rows() const {
+  return std::sqrt(static_cast<double>(targets_.size())) * penalties_.rows;  // jacobian() is of the targets' sum
 }
 
 Eigen::MatrixXd FitObjective::jacobian(std::span<const double> parameters) {
-  set(parameters);
+  force_.set(parameters);
   std::size_t rows = 0;
   for (const FitTarget& target : targets_) rows += 3 * target.time_s.size();
-  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(size_));
+  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(by_x_.size()));
   jacobian.setZero();
-  std::vector<double> line(size_);
+  std::vector<double> line(by_x_.size());
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const FitTarget& target = targets_[i];
@@ -318,11 +292,12 @@ Eigen::MatrixXd FitObjective::jacobian(std::span<const double> parameters) {
       }
     });
   }
+  if (is_table()) return jacobian * force_.by_parameters();
   return jacobian;
 }
 
 void FitObjective::columns_at_sample(double tau, Columns& accel, Columns& velocity, Columns& displacement) const {
-  fit_kernel().columns_at(series_, tau, displacement, velocity);
+  kernel_->columns_at(series_, tau, displacement, velocity);
   for (std::size_t c = 0; c < kColumns; ++c) {
     accel[c] = 0.0;
     for (int n = kFitDegree; n >= 1; --n) accel[c] = accel[c] * tau + n * series_.v[n][c];

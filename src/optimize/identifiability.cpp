@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <crashsim/error.hpp>
@@ -48,6 +49,12 @@ ColumnAnalysis analyse_columns(const Eigen::MatrixXd& jacobian, const Eigen::Vec
   const Eigen::MatrixXd half = svd.matrixV() * sigma.cwiseInverse().asDiagonal();
   analysis.covariance = half * half.transpose();
   return analysis;
+}
+
+Eigen::MatrixXd without_nuisance(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& nuisance) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(nuisance);
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(nuisance.rows(), qr.rank());
+  return rows - basis * (basis.transpose() * rows);
 }
 
 Uncertainty uncertainty_of(const ColumnAnalysis& analysis, double residual_variance) {

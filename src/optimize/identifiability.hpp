@@ -29,6 +29,10 @@ struct ColumnAnalysis {
 /// @param sizes of the parameters, by which columns are compared.
 ColumnAnalysis analyse_columns(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& sizes);
 
+/// Rows without what the columns of `nuisance` can make of them: what they then say of their parameters is what is left
+/// when the nuisance is unknown, too.
+Eigen::MatrixXd without_nuisance(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& nuisance);
+
 /// Standard errors and correlations of all parameters; unset for those that are not determined.
 struct Uncertainty {
   std::vector<double> standard_errors;

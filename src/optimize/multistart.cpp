@@ -12,7 +12,7 @@ class ScaledObjective {
  public:
   explicit ScaledObjective(const MultistartProblem& problem)
       : upper_(problem.upper),
-        objective_(problem.structure, problem.targets, problem.options.loss, problem.options.smooth),
+        objective_(problem.structure, problem.targets, problem.options.loss, problem.smooth, problem.prior),
         ordinates_(objective_.size()) {}
 
   double value(std::span<const double> point, double smoothing, std::span<double> gradient) {

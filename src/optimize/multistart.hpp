@@ -16,8 +16,10 @@ struct MultistartProblem {
   const FitStructure& structure;
   std::span<const FitTarget> targets;
   const IdentifyOptions& options;
-  const Eigen::VectorXd& upper;           ///< Bounds of the ordinates.
+  const Eigen::VectorXd& upper;           ///< Bounds of the parameters.
   const Eigen::VectorXd& equation_error;  ///< Start 0.
+  double smooth = 0.0;
+  Prior prior = {};
 };
 
 /// Initial ordinates of a start: the equation-error solution for 0, random ones that depend on seed and index only.

@@ -56,19 +56,49 @@ std::string explain(const Verdict& verdict, Index touched, std::size_t untouched
   return text;
 }
 
+/// Names and parts of a structure's parameters, in their order.
+std::vector<OrdinateReport> name_parameters(const FitStructure& structure) {
+  std::vector<OrdinateReport> reports;
+  const auto add = [&reports](std::string_view letter, std::size_t first, std::size_t count, FittedPart part) {
+    for (std::size_t i = 0; i < count; ++i) {
+      reports.emplace_back();
+      reports.back().name = fmt::format("{}{}", letter, first + i);
+      reports.back().part = part;
+    }
+  };
+  add("k", 1, structure.springs(), FittedPart::spring);
+  add("c", 1, structure.dampers(), FittedPart::damper);
+  if (structure.has_rate()) {
+    add("r", 1, 1, FittedPart::rate);
+    reports.back().name = "r";
+  }
+  add("x", 2, structure.free_springs(), FittedPart::spring_knot);
+  add(structure.law == CrushLaw::crush_damping ? "d" : "v", 2, structure.free_dampers(), FittedPart::damper_knot);
+  return reports;
+}
+
 std::vector<OrdinateReport> describe(const FitStructure& structure, std::span<const double> parameters,
                                      const Eigen::VectorXd& upper, const std::vector<bool>& touched) {
-  std::vector<OrdinateReport> reports(parameters.size());
-  const std::size_t springs = structure.spring_knots.size();
+  std::vector<OrdinateReport> reports = name_parameters(structure);
   for (std::size_t i = 0; i < reports.size(); ++i) {
     OrdinateReport& report = reports[i];
-    report.name = i < springs ? fmt::format("k{}", i + 1) : fmt::format("c{}", i - springs + 1);
     report.value = parameters[i];
     report.upper_bound = upper[static_cast<Index>(i)];
     report.untouched = !touched[i];
     report.at_bound =
         parameters[i] <= kAtBound * report.upper_bound || parameters[i] >= (1.0 - kAtBound) * report.upper_bound;
   }
+  // A knot's parameter is its distance from its lowest place.
+  const FitKnots knots = knots_of(structure, parameters);
+  const auto place = [&](std::size_t first, std::size_t count, const std::vector<double>& places) {
+    for (std::size_t i = 0; i < count; ++i) {
+      OrdinateReport& report = reports[first + i];
+      report.upper_bound += places[i + 1] - report.value;
+      report.value = places[i + 1];
+    }
+  };
+  place(structure.first_knot(), structure.free_springs(), knots.spring);
+  place(structure.first_knot() + structure.free_springs(), structure.free_dampers(), knots.damper);
   return reports;
 }
 
@@ -88,8 +118,8 @@ void hold_untouched(const FitStructure& structure, const std::vector<bool>& touc
         }
     }
   };
-  hold(0, structure.spring_knots.size());
-  hold(structure.spring_knots.size(), structure.damper_knots.size());
+  hold(0, structure.springs());
+  hold(structure.springs(), structure.dampers());
 }
 
 Identifiability judge_identifiability(const FitStructure& structure, std::span<const double> parameters,
@@ -111,11 +141,12 @@ Identifiability judge_identifiability(const FitStructure& structure, std::span<c
     return out;
   }
   const auto count = static_cast<Index>(determined.size());
-  const Index springs = std::ranges::lower_bound(determined, structure.spring_knots.size()) - determined.begin();
+  const Index springs = std::ranges::lower_bound(determined, structure.springs()) - determined.begin();
+  const Index ordinates = std::ranges::lower_bound(determined, structure.first_knot()) - determined.begin();
   out.verdict.rank = analysis.rank;
   out.verdict.condition = analysis.condition;
   out.verdict.spring_damper_cosine =
-      largest_cosine(analysis.columns.leftCols(springs), analysis.columns.rightCols(count - springs));
+      largest_cosine(analysis.columns.leftCols(springs), analysis.columns.middleCols(springs, ordinates - springs));
   out.verdict.identifiable =
       analysis.has_full_rank() && determined.size() == parameters.size() && analysis.condition <= kWellConditioned;
   const auto untouched = static_cast<std::size_t>(std::count(touched.begin(), touched.end(), false));

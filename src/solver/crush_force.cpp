@@ -171,7 +171,7 @@ RegionForce region_force(const CrushForce& force, int spring, int damper) {
     out.damper[1] += force.damping_polynomials[s][0];
     out.cross = force.damping_polynomials[s][1];
   }
-  if (force.rate_coefficient != 0.0) {
+  if (force.per_reference_speed != 0.0) {
     out.rate = force.rate_coefficient;
     out.per_reference = force.damper.upper(damper) <= 0.0 ? -force.per_reference_speed : force.per_reference_speed;
   }
