@@ -19,7 +19,7 @@ struct SmoothingChoice {
   double residual = kUnset;   ///< |rows p - rhs|^2 there.
   double roughness = kUnset;  ///< |roughness p|^2 there.
   double freedom = kUnset;    ///< Effective number of parameters: trace of the influence matrix.
-  bool at_edge = false;       ///< No optimum inside the range of weights that matter: one of its ends.
+  bool at_edge = false;       ///< No optimum inside the range of weights that matter: an end of it.
 };
 
 /// Chooses the weight s in min |rows p - rhs|^2 + s |roughness p|^2, 0 <= p <= upper.
