@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "optimize/effective_samples.hpp"
+#include "optimize/smoothing_choice.hpp"
 
 namespace crashsim {
 namespace {
@@ -230,13 +231,9 @@ Prior make_prior(const FitStructure& structure, const IdentifyOptions& options, 
   return prior;
 }
 
-/// E at the equation-error solution over the number of independent observations: forces whose residuals hang together
-/// count as one.
-double error_of_observation(const FitStudy& study) {
-  const Eigen::VectorXd linear = study.solve_equation_error();
-  const std::span<const double> parameters(linear.data(), static_cast<std::size_t>(linear.size()));
-  FitObjective objective = study.objective();
-  const double error = objective.evaluate(parameters, 0.0, {});
+/// Number of independent observations in the forces that a solution of the equation error leaves: those that hang
+/// together count as one.
+double observations_of(const FitStudy& study, std::span<const double> parameters) {
   const ForceResiduals force = force_residuals(study.structure, study.targets, parameters);
   double observations = 0.0;
   Eigen::Index first = 0;
@@ -246,7 +243,28 @@ double error_of_observation(const FitStudy& study) {
     observations += effective_samples({residuals.data(), target.time_s.size()});
     first += count;
   }
-  return std::isfinite(error) ? error / observations : 0.0;
+  return observations;
+}
+
+std::span<const double> view(const Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+
+/// E at the equation-error solution over the number of independent observations.
+double error_of_observation(const FitStudy& study) {
+  const Eigen::VectorXd linear = study.solve_equation_error();
+  const double error = study.objective().evaluate(view(linear), 0.0, {});
+  return std::isfinite(error) ? error / observations_of(study, view(linear)) : 0.0;
+}
+
+/// Weight of the smoothing that the equation error asks for, in proportion to the loss of the fit.
+double chosen_smoothing(const FitStudy& study) {
+  const EquationErrorSystem system = assemble_equation_error(study.structure, study.targets, study.upper);
+  const Eigen::VectorXd linear = study.solve_equation_error();
+  const double inflation = static_cast<double>(system.rhs.size()) / observations_of(study, view(linear));
+  const double smooth = choose_smoothing(system, study.upper, study.options.smoothing, inflation).smooth;
+  if (study.options.loss == Loss::l2 || study.options.method == IdentifyMethod::equation_error) return smooth;
+  FitObjective squared(study.structure, study.targets, Loss::l2, 0.0);
+  const double ratio = study.objective().evaluate(view(linear), 0.0, {}) / squared.evaluate(view(linear), 0.0, {});
+  return std::isfinite(ratio) ? smooth * ratio : smooth;
 }
 
 bool needs_observation_error(const IdentifyOptions& options) {
@@ -264,7 +282,10 @@ FitStudy::FitStudy(std::span<const Pulse> pulses, const IdentifyOptions& how) : 
   }
   structure = make_structure(how, targets);
   upper = upper_bounds(structure, how, targets);
-  smooth = how.smooth;
+  if (how.smoothing != Smoothing::fixed && how.smooth > 0.0)
+    throw InvalidInput(fmt::format("IdentifyOptions.smooth = {}: goes with smoothing = fixed, this is {}: choose one",
+                                   how.smooth, name_of(how.smoothing)));
+  smooth = how.smoothing == Smoothing::fixed ? how.smooth : chosen_smoothing(*this);
   if (needs_observation_error(how)) observation_error = error_of_observation(*this);
   prior = make_prior(structure, how, observation_error);
 }

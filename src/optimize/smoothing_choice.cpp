@@ -75,7 +75,7 @@ using Places = std::vector<Place>;
 /// The criterion as a function of the weight.
 class Criterion {
  public:
-  Criterion(const EquationErrorSystem& system, const Eigen::VectorXd& upper, SmoothingRule rule, double inflation)
+  Criterion(const EquationErrorSystem& system, const Eigen::VectorXd& upper, Smoothing rule, double inflation)
       : small_(reduce(system)), upper_(upper), rule_(rule), inflation_(inflation) {
     const double size = small_.roughness.norm();
     balance_ = size > 0.0 ? small_.rows.norm() / size : 1.0;
@@ -108,7 +108,7 @@ class Criterion {
     out.residual = x.residual + (s * s * s2 * (x.w / both).square()).sum();
     const double roughness = x.roughness + (c2 * (x.w / both).square()).sum();
     out.roughness = roughness / (balance_ * balance_);
-    if (rule_ == SmoothingRule::gcv) {
+    if (rule_ == Smoothing::gcv) {
       const double left = small_.samples - inflation_ * out.freedom;
       out.criterion = left > 0.0 ? small_.samples * out.residual / (left * left) : kUnset;
     } else {
@@ -120,7 +120,7 @@ class Criterion {
   /// Larger is better; the worst where the criterion does not exist.
   [[nodiscard]] double merit(const SmoothingChoice& choice) const {
     if (std::isnan(choice.criterion)) return -std::numeric_limits<double>::infinity();
-    return rule_ == SmoothingRule::gcv ? -choice.criterion : choice.criterion;
+    return rule_ == Smoothing::gcv ? -choice.criterion : choice.criterion;
   }
 
  private:
@@ -166,7 +166,7 @@ class Criterion {
 
   Reduced small_;
   Eigen::VectorXd upper_;
-  SmoothingRule rule_;
+  Smoothing rule_;
   double inflation_, balance_ = 1.0;  ///< Roughness is scaled by this, to the size of the rows.
   std::map<Places, Spectrum> spectra_;
 };
@@ -199,13 +199,13 @@ SmoothingChoice refine(Criterion& criterion, double low, double high, SmoothingC
 
 /// Index of the best weight. The L-curve's end, where it stops at the fit without smoothing, is no corner, however much
 /// the curve bends there: without a corner inside, the smallest weight.
-int best_of(const Criterion& criterion, SmoothingRule rule, const std::vector<SmoothingChoice>& tried) {
+int best_of(const Criterion& criterion, Smoothing rule, const std::vector<SmoothingChoice>& tried) {
   const auto merit = [&](std::size_t i) { return criterion.merit(tried[i]); };
   std::size_t best = 0;
-  double best_merit = rule == SmoothingRule::gcv ? merit(0) : 0.0;
+  double best_merit = rule == Smoothing::gcv ? merit(0) : 0.0;
   for (std::size_t i = 1; i < tried.size(); ++i) {
     const bool is_peak = i + 1 < tried.size() && merit(i) > merit(i - 1) && merit(i) > merit(i + 1);
-    if ((rule == SmoothingRule::l_curve && !is_peak) || merit(i) <= best_merit) continue;
+    if ((rule == Smoothing::l_curve && !is_peak) || merit(i) <= best_merit) continue;
     best = i;
     best_merit = merit(i);
   }
@@ -214,7 +214,7 @@ int best_of(const Criterion& criterion, SmoothingRule rule, const std::vector<Sm
 
 }  // namespace
 
-SmoothingChoice choose_smoothing(const EquationErrorSystem& system, const Eigen::VectorXd& upper, SmoothingRule rule,
+SmoothingChoice choose_smoothing(const EquationErrorSystem& system, const Eigen::VectorXd& upper, Smoothing rule,
                                  double inflation) {
   Criterion criterion(system, upper, rule, inflation);
   const auto [low, high] = criterion.range();

@@ -3,14 +3,11 @@
 
 #include <Eigen/Core>
 
-#include <crashsim/error.hpp>
+#include <crashsim/identify_options.hpp>
 
 #include "optimize/equation_error.hpp"
 
 namespace crashsim {
-
-/// Generalised cross-validation, or the corner of the L-curve.
-enum class SmoothingRule { gcv, l_curve };
 
 /// A weight of the roughness, chosen.
 struct SmoothingChoice {
@@ -29,8 +26,9 @@ struct SmoothingChoice {
 /// bounds that occurs; no fit per weight apart from it.
 /// @param inflation how many samples carry the information of one: correlated residuals would pass for structure
 /// otherwise; 1 for independent ones.
+/// @param rule gcv or l_curve.
 /// @returns smooth 0 when no roughness is defined (fewer than 3 ordinates a curve).
-SmoothingChoice choose_smoothing(const EquationErrorSystem& system, const Eigen::VectorXd& upper, SmoothingRule rule,
+SmoothingChoice choose_smoothing(const EquationErrorSystem& system, const Eigen::VectorXd& upper, Smoothing rule,
                                  double inflation = 1.0);
 
 }  // namespace crashsim

@@ -25,8 +25,8 @@ constexpr double kRtol = 1e-10;
 
 std::span<const double> view(const VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
-/// The pulse's acceleration at time t, linear between samples. Before the first sample it is that sample's, and after the
-/// last the last one's: what was not recorded must not make a step.
+/// The pulse's acceleration at time t, linear between samples. Before the first sample it is that sample's, and after
+/// the last the last one's: what was not recorded must not make a step.
 double accel_at(const Pulse& pulse, double t) {
   if (t < pulse.time_s.front()) return pulse.accel_mps2.front();
   const auto after = std::upper_bound(pulse.time_s.begin(), pulse.time_s.end(), t);

@@ -238,6 +238,34 @@ TEST(Priors, HoldWhereTheyAreSureAndYieldWhereTheyAreNot) {
   EXPECT_LT(held.verdict.condition, free.verdict.condition);
 }
 
+/// Noise that a fit of 12 + 12 knots would follow: smoothing chosen from the data comes nearer to the truth.
+TEST(ChosenSmoothing, BringsTheCurveNearerToTheTruth) {
+  const FitStructure structure = buckling_structure(CrushLaw::force);
+  CrushModel truth = make_model(structure, buckling_parameters(structure), kMass_kg, kSpeeds_mps[1]);
+  truth.damper = {};
+  const Pulse pulse = test::noisy_pulse(truth, kSpeeds_mps[1], 0.15, 8);
+  IdentifyOptions options = options_of(structure);
+  options.spring_knots = 25;
+  options.damper_knots = 0;
+  const auto distance = [&](const Identification& fit) {
+    double sum = 0.0;
+    for (int i = 0; i <= 100; ++i) {
+      const double x = 0.01 * i * pulse.max_crush_m;
+      sum += std::fabs(spring_force(fit.model, x) - spring_force(truth, x));
+    }
+    return sum;
+  };
+  const Identification rough = identify(pulse, options);
+  EXPECT_EQ(rough.smooth, 0.0);
+  for (const Smoothing rule : {Smoothing::gcv, Smoothing::l_curve}) {
+    options.smoothing = rule;
+    const Identification fit = identify(pulse, options);
+    ASSERT_TRUE(fit.usable()) << fit.message;
+    EXPECT_GT(fit.smooth, 0.0) << name_of(rule);
+    EXPECT_LT(distance(fit), distance(rough)) << name_of(rule);
+  }
+}
+
 struct Refusal {
   const char* name;
   void (*spoil)(IdentifyOptions&);
@@ -262,11 +290,20 @@ TEST_P(RefusedJointFit, SaysWhatIsWrong) {
 
 INSTANTIATE_TEST_SUITE_P(
     Options, RefusedJointFit,
-    testing::Values(Refusal{"weights_of_two_tests", [](IdentifyOptions& o) { o.test_weights = {1.0, 2.0}; },
+    testing::Values(Refusal{"weights_of_two_tests",
+                            [](IdentifyOptions& o) {
+                              o.test_weights = {1.0, 2.0};
+                            },
                             "IdentifyOptions.test_weights = 1,2: 3 numbers > 0 are needed, one a test"},
-                    Refusal{"negative_weight", [](IdentifyOptions& o) { o.test_weights = {1.0, -2.0, 1.0}; },
+                    Refusal{"negative_weight",
+                            [](IdentifyOptions& o) {
+                              o.test_weights = {1.0, -2.0, 1.0};
+                            },
                             "numbers > 0 are needed"},
-                    Refusal{"prior_of_two", [](IdentifyOptions& o) { o.spring_prior = {1.0, 2.0}; },
+                    Refusal{"prior_of_two",
+                            [](IdentifyOptions& o) {
+                              o.spring_prior = {1.0, 2.0};
+                            },
                             "IdentifyOptions.spring_prior = 1,2: one number for all, or 5 numbers"},
                     Refusal{"free_pchip",
                             [](IdentifyOptions& o) {
@@ -274,6 +311,12 @@ INSTANTIATE_TEST_SUITE_P(
                               o.curve = Curve::pchip;
                             },
                             "knots = free: goes with curve = linear"},
+                    Refusal{"smooth_and_chosen",
+                            [](IdentifyOptions& o) {
+                              o.smooth = 0.1;
+                              o.smoothing = Smoothing::gcv;
+                            },
+                            "IdentifyOptions.smooth = 0.1: goes with smoothing = fixed, this is gcv"},
                     Refusal{"rate_without_spring",
                             [](IdentifyOptions& o) {
                               o.law = CrushLaw::rate;

@@ -20,7 +20,8 @@ const std::vector<double> kOrdinates = {1.0, 3.0, 2.0, 2.5, 7.0};
 TEST(Pchip, IsThatOfSciPy) {
   const PiecewiseLinear table = tabulate_pchip(kKnots, kOrdinates);
   ASSERT_EQ(table.knots.size(), 33U);
-  const std::vector<double> scipy = {1.0, 2.3833333333333333, 3.0, 2.5000000000000004, 2.0, 2.142203832752613, 2.5, 4.050946309787774, 7.0};
+  const std::vector<double> scipy = {1.0, 2.3833333333333333, 3.0, 2.5000000000000004, 2.0, 2.142203832752613,
+                                     2.5, 4.050946309787774,  7.0};
   for (std::size_t i = 0; i < scipy.size(); ++i) EXPECT_NEAR(table.ordinates[4 * i], scipy[i], kRounding) << i;
 }
 

@@ -22,6 +22,14 @@ constexpr double kAtMinimum = 1e-5;  // solver: a minimum's place, its value kno
 constexpr double kValue = 1e-9;      // solver: a smooth function near its minimum
 constexpr double kCurvature = 1e-6;  // regression: from differences in 40 digits
 
+VectorXd solve(const EquationErrorSystem& system, const VectorXd& upper, double smooth) {
+  MatrixXd a(system.rows.rows() + system.roughness.rows(), system.rows.cols());
+  a << system.rows, std::sqrt(smooth) * system.roughness;
+  VectorXd b = VectorXd::Zero(a.rows());
+  b.head(system.rhs.size()) = system.rhs;
+  return bounded_least_squares(a, b, upper);
+}
+
 VectorXd generous(Index count) { return VectorXd::Constant(count, 1e3); }
 
 MatrixXd second_differences(Index count) {
@@ -52,7 +60,7 @@ EquationErrorSystem wavy() {
 
 /// Score of cross-validation by dense algebra, ordinates at bounds left out of the trace.
 double plain_gcv(const EquationErrorSystem& system, const VectorXd& upper, double smooth) {
-  const VectorXd p = solve_equation_error(system, upper, smooth);
+  const VectorXd p = solve(system, upper, smooth);
   std::vector<Index> free;
   for (Index i = 0; i < p.size(); ++i)
     if (p[i] > 0.0 && p[i] < upper[i]) free.push_back(i);
@@ -80,7 +88,7 @@ TEST(SmoothingChoice, ByCrossValidationIsTheClosedForm) {
   system.rhs << 3.0, 2.0, 4.0, 1.0, -0.5, 1.5, 0.3, -1.0;
   const double followed = system.rhs.head(kOrdinates).squaredNorm(), rest = system.rhs.tail(5).squaredNorm();
   const double f = 1.0 - 3.0 * rest / (5.0 * followed);
-  const SmoothingChoice choice = choose_smoothing(system, generous(kOrdinates), SmoothingRule::gcv);
+  const SmoothingChoice choice = choose_smoothing(system, generous(kOrdinates), Smoothing::gcv);
   EXPECT_NEAR(choice.smooth, 1.0 / f - 1.0, kAtMinimum * choice.smooth);
   EXPECT_NEAR(choice.freedom, 3.0 * f, kAtMinimum);
   EXPECT_NEAR(choice.criterion, 8.0 * ((1.0 - f) * (1.0 - f) * followed + rest) / std::pow(8.0 - 3.0 * f, 2.0), kValue);
@@ -100,17 +108,17 @@ void expect_recorded(const SmoothingChoice& choice, const Recorded& recorded, do
 }
 
 TEST(SmoothingChoice, ByCrossValidationIsSciPys) {
-  expect_recorded(choose_smoothing(wavy(), generous(7), SmoothingRule::gcv),
+  expect_recorded(choose_smoothing(wavy(), generous(7), Smoothing::gcv),
                   {0.6260005316, 0.00858749466259, 0.137457537788, 0.165557431605, 4.39997339114}, kValue);
 }
 
 TEST(SmoothingChoice, OfCorrelatedSamplesIsSciPys) {
-  expect_recorded(choose_smoothing(wavy(), generous(7), SmoothingRule::gcv, 2.0),
+  expect_recorded(choose_smoothing(wavy(), generous(7), Smoothing::gcv, 2.0),
                   {1.030136313, 0.0138015302007, 0.146160143669, 0.155000001347, 4.02874897637}, kValue);
 }
 
 TEST(SmoothingChoice, ByTheLCurveIsWhatFortyDigitsGive) {
-  expect_recorded(choose_smoothing(wavy(), generous(7), SmoothingRule::l_curve),
+  expect_recorded(choose_smoothing(wavy(), generous(7), Smoothing::l_curve),
                   {0.134542708452, 6.3510392523536, 0.131887454909, 0.180590059559, 5.62771801818}, kCurvature);
 }
 
@@ -119,8 +127,8 @@ TEST(SmoothingChoice, WithBoundsIsWhatPlainSearchFinds) {
   const EquationErrorSystem system =
       wavy([](double x) { return 1.5 * std::sin(7.0 * x) + 0.3 * std::cos(40.0 * x) + 0.2 * std::sin(71.0 * x); });
   const VectorXd upper = VectorXd::Constant(7, 1.2);
-  const SmoothingChoice choice = choose_smoothing(system, upper, SmoothingRule::gcv);
-  const VectorXd p = solve_equation_error(system, upper, choice.smooth);
+  const SmoothingChoice choice = choose_smoothing(system, upper, Smoothing::gcv);
+  const VectorXd p = solve(system, upper, choice.smooth);
   ASSERT_EQ(p.minCoeff(), 0.0);
   ASSERT_EQ(p.maxCoeff(), 1.2);
   EXPECT_NEAR(choice.criterion, plain_gcv(system, upper, choice.smooth), kValue * choice.criterion);
@@ -137,7 +145,7 @@ TEST(SmoothingChoice, WithAnUntouchedOrdinateIsWhatPlainSearchFinds) {
   system.rows = MatrixXd(system.rows(seen, Eigen::all));
   system.rhs = VectorXd(system.rhs(seen));
   ASSERT_EQ(system.rows.col(6).norm(), 0.0);
-  const SmoothingChoice choice = choose_smoothing(system, generous(7), SmoothingRule::gcv);
+  const SmoothingChoice choice = choose_smoothing(system, generous(7), Smoothing::gcv);
   const double least = least_over_grid([&](double smooth) { return plain_gcv(system, generous(7), smooth); });
   EXPECT_LE(choice.criterion, least * (1.0 + kValue));
   EXPECT_NEAR(choice.criterion, plain_gcv(system, generous(7), choice.smooth), kValue * choice.criterion);
@@ -145,7 +153,7 @@ TEST(SmoothingChoice, WithAnUntouchedOrdinateIsWhatPlainSearchFinds) {
 
 TEST(SmoothingChoice, OfAStraightCurveWithWavesIsTheLargest) {
   const EquationErrorSystem system = wavy([](double x) { return 1.0 + x + 0.1 * std::cos(37.0 * x); });
-  const SmoothingChoice choice = choose_smoothing(system, generous(7), SmoothingRule::gcv);
+  const SmoothingChoice choice = choose_smoothing(system, generous(7), Smoothing::gcv);
   EXPECT_TRUE(choice.at_edge);
   constexpr double kStraight = 2.0, kNearly = 1e-2;  // solver: what the largest weight leaves of other directions
   EXPECT_NEAR(choice.freedom, kStraight, kNearly);
@@ -154,7 +162,7 @@ TEST(SmoothingChoice, OfAStraightCurveWithWavesIsTheLargest) {
 TEST(SmoothingChoice, WithoutRoughnessIsNone) {
   EquationErrorSystem system = wavy();
   system.roughness = MatrixXd(0, 7);
-  const SmoothingChoice choice = choose_smoothing(system, generous(7), SmoothingRule::l_curve);
+  const SmoothingChoice choice = choose_smoothing(system, generous(7), Smoothing::l_curve);
   EXPECT_EQ(choice.smooth, 0.0);
   EXPECT_NEAR(choice.freedom, 7.0, kValue);
   EXPECT_TRUE(std::isnan(choice.criterion));
