@@ -1,5 +1,7 @@
 /// crashsim identify: a crush model from pulses.
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "command.hpp"
@@ -14,7 +16,9 @@ class IdentifyCommand : public Command {
   explicit IdentifyCommand(CLI::App& parent)
       : Command(parent, "identify", "Identify spring and damper from one pulse or several of the same structure",
                 "crashsim pulse data/fe-car/C56.csv --channel LEFT_REAR_VX --channel RIGHT_REAR_VX -o pulse.csv\n"
-                "  crashsim identify pulse.csv -o model.json") {
+                "  crashsim identify pulse.csv -o model.json\n"
+                "  crashsim pulse data/fe-car/C40.csv --channel LEFT_REAR_VX --channel RIGHT_REAR_VX -o pulse40.csv\n"
+                "  crashsim identify pulse40.csv pulse.csv --law crush_damping -o joint.json") {
     app()
         .add_option("pulse", files_, "pulse.csv, or any trace that `pulse` reads without options")
         ->required()
@@ -62,9 +66,29 @@ class IdentifyCommand : public Command {
         say(fmt::format("  {:<4} {:>14.6g} {:>14} {:>14.4g}{}{}", o.name, o.value,
                         std::isnan(o.standard_error) ? "-" : fmt::format("{:.3g}", o.standard_error), o.upper_bound,
                         o.at_bound ? "  at bound" : "", o.untouched ? "  no sample depends on it" : ""));
+      if (fit.tests.size() > 1 || has_corrections(fit)) report_tests(fit);
     }
     warn(fit.warnings);
     print_json(format_summary(summary));
+  }
+
+  static bool has_corrections(const Identification& fit) {
+    const TestReport& test = fit.tests.front();
+    return !std::isnan(test.time_shift_s) || !std::isnan(test.gain) || !std::isnan(test.bias_mps2);
+  }
+
+  void report_tests(const Identification& fit) const {
+    const auto cell = [](double value, double error, double scale) {
+      return std::isnan(value) ? "-" : fmt::format("{:.4g} +- {:.2g}", scale * value, scale * error);
+    };
+    say(fmt::format("  {:<24} {:>9} {:>9} {:>10} {:>20} {:>20} {:>20}", "test", "speed m/s", "weight", "E",
+                    "time shift ms", "gain", "bias m/s^2"));
+    for (std::size_t i = 0; i < fit.tests.size(); ++i) {
+      const TestReport& t = fit.tests[i];
+      say(fmt::format("  {:<24} {:>9.3f} {:>9.3g} {:>10.6f} {:>20} {:>20} {:>20}", files_[i], t.impact_speed_mps,
+                      t.weight, t.error.total, cell(t.time_shift_s, t.time_shift_error_s, 1e3),
+                      cell(t.gain, t.gain_error, 1.0), cell(t.bias_mps2, t.bias_error_mps2, 1.0)));
+    }
   }
 
   std::vector<std::string> files_;

@@ -25,13 +25,31 @@ void bind_reports(py::module_& module) {
       .field("spring_damper_cosine", &Verdict::spring_damper_cosine,
              "Largest cosine between the spring's and the damper's columns.")
       .field("message", &Verdict::message, "In words.");
-  ValueClass<OrdinateReport>(module, "OrdinateReport", "One identified ordinate.")
-      .field("name", &OrdinateReport::name, "'k1'.. of the spring, 'c1'.. of the damper.")
-      .field("value", &OrdinateReport::value, "[N/m], [N] or [N s/m].")
+  ValueClass<OrdinateReport>(module, "OrdinateReport",
+                             "One identified number: an ordinate, r of law 'rate', a free knot.")
+      .field("name", &OrdinateReport::name,
+             "'k1'.. of the spring, 'c1'.. of the damper, 'r', 'x2'.. of the spring's knots, 'v2'.. (law "
+             "'crush_damping': 'd2'..) of the damper's.")
+      .field("part", &OrdinateReport::part, "'spring', 'damper', 'rate', 'spring_knot' or 'damper_knot'.")
+      .field("value", &OrdinateReport::value, "[N/m], [N], [N s/m], [-], [m] or [m/s].")
       .field("standard_error", &OrdinateReport::standard_error, "[as value]; NaN when the data say nothing about it.")
       .field("upper_bound", &OrdinateReport::upper_bound, "[as value]")
       .field("untouched", &OrdinateReport::untouched, "No sample depends on it: held as the nearest fitted one.")
       .field("at_bound", &OrdinateReport::at_bound, "At a bound, 0 or the upper.");
+  ValueClass<TestReport>(module, "TestReport",
+                         "One test of a fit; measured(t) = gain * true(t - time_shift) + bias where that is sought.")
+      .field("impact_speed_mps", &TestReport::impact_speed_mps, "[m/s]")
+      .field("mass_kg", &TestReport::mass_kg, "[kg]")
+      .field("max_crush_m", &TestReport::max_crush_m, "Measured [m].")
+      .field("t_m_s", &TestReport::t_m_s, "Measured time of maximum crush [s].")
+      .field("weight", &TestReport::weight, "In E; their mean is 1.")
+      .field("error", &TestReport::error, "FitError of this test, with its weight.")
+      .field("time_shift_s", &TestReport::time_shift_s, "[s]; NaN where not sought, as all that follows.")
+      .field("gain", &TestReport::gain, "[-]")
+      .field("bias_mps2", &TestReport::bias_mps2, "[m/s^2]")
+      .field("time_shift_error_s", &TestReport::time_shift_error_s, "Standard error [s].")
+      .field("gain_error", &TestReport::gain_error, "Standard error.")
+      .field("bias_error_mps2", &TestReport::bias_error_mps2, "Standard error [m/s^2].");
   ValueClass<ParameterReport>(module, "ParameterReport", "One number of a model that is identified as it is.")
       .field("name", &ParameterReport::name, "Of the model's field.")
       .field("unit", &ParameterReport::unit, "SI symbol.")
@@ -56,6 +74,8 @@ void bind_identification(py::module_& module) {
       .field("error", &Identification::error, "FitError of the model as CVODE simulates it.")
       .field("verdict", &Identification::verdict, "Verdict: how far the ordinates can be believed.")
       .field("ordinates", &Identification::ordinates, "An OrdinateReport each, spring first.")
+      .field("tests", &Identification::tests, "A TestReport each.")
+      .field("smooth", &Identification::smooth, "Weight of the smoothing, as given or as chosen.")
       .field("correlation", &Identification::correlation, "Between ordinates, array of (n, n); NaN where meaningless.")
       .field("starts", &Identification::starts, "A StartReport each.")
       .field("starts_at_best", &Identification::starts_at_best, "Starts with E within 0.1 % of the best.")
@@ -112,6 +132,35 @@ InvalidInput
     On bad options, or a pulse without mass.
 KeyboardInterrupt
     On Ctrl-C.)")
+          .c_str());
+  module.def(
+      "equation_error",
+      [](const py::object& pulses, const py::kwargs& keywords) {
+        const std::vector<Pulse> tests = pulses_of(pulses);
+        const auto options = options_from<IdentifyOptions>(keywords, "equation_error");
+        return unlocked([&] { return equation_error(std::span<const Pulse>(tests), options); });
+      },
+      py::arg("pulses"),
+      with_options_doc<IdentifyOptions>(
+          R"(Identifies by the equation error alone: least squares in the force with the measured motion inserted.
+
+Takes microseconds, and for ordinates between given knots the solution is the one best.
+
+Parameters
+----------
+pulses : Pulse or sequence of Pulse
+    Tests of one structure, fitted together.
+**options
+    Those of identify; ``method`` is 'equation-error'.
+
+Returns
+-------
+Identification
+
+Raises
+------
+InvalidInput
+    On bad options, or a pulse without mass.)")
           .c_str());
   module.def(
       "fit_error",

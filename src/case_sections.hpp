@@ -39,7 +39,8 @@ struct CaseSection {
 };
 
 /// Fields of the identification that describe the model.
-inline const std::vector<std::string_view> kCrushFlags = {"law", "spring-knots", "damper-knots", "knots"};
+inline const std::vector<std::string_view> kCrushFlags = {"law",   "spring-knots", "damper-knots",
+                                                          "knots", "curve",        "reference-speed"};
 
 inline auto case_sections() {
   std::vector<std::string_view> not_in_identify = kCrushFlags;

@@ -236,6 +236,11 @@ Identification identify(const Pulse& pulse, const IdentifyOptions& options, cons
   return identify(std::span(&pulse, 1), options, progress);
 }
 
+Identification equation_error(std::span<const Pulse> pulses, IdentifyOptions options) {
+  options.method = IdentifyMethod::equation_error;
+  return identify(pulses, options);
+}
+
 FitError fit_error(const CrushModel& model, const Pulse& pulse, const Setting<Weights>& weights, Loss loss) {
   return error_of_record(model, make_target(pulse, model.mass_kg, weights), loss);
 }

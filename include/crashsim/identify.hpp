@@ -115,6 +115,9 @@ Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& op
                         const Progress& progress = {});
 Identification identify(const Pulse& pulse, const IdentifyOptions& options = {}, const Progress& progress = {});
 
+/// identify() by the equation error alone: microseconds, and for ordinates between given knots the one best solution.
+Identification equation_error(std::span<const Pulse> pulses, IdentifyOptions options = {});
+
 /// E of a model against a pulse over the pulse's own samples 0..t_m, simulated by CVODE.
 FitError fit_error(const CrushModel& model, const Pulse& pulse, const Setting<Weights>& weights = {},
                    Loss loss = Loss::l1);

@@ -145,9 +145,12 @@ def _standard_error(thing: ModelOrFit, given: ArrayLike | None, models: int, *, 
         return vector(given, "standard_error")
     if not hasattr(thing, "ordinates"):
         return None
-    errors = np.array([ordinate.standard_error for ordinate in cast(Fit, thing).ordinates], dtype=np.float64)
-    in_spring = len(np.asarray(_model(thing).spring.knots))
-    return errors[:in_spring] if of_spring else errors[in_spring:]
+    part = "spring" if of_spring else "damper"
+    errors = [ordinate.standard_error for ordinate in cast(Fit, thing).ordinates if ordinate.part == part]
+    curve = _model(thing).spring if of_spring else _model(thing).damper
+    if len(errors) != len(np.asarray(curve.knots)):
+        return None  # a curve that is a table has more knots than were fitted
+    return np.array(errors, dtype=np.float64)
 
 
 def _draw_curve(ax: Axes, curve: Curve, scale: float, errors: Floats | None, index: int, label: str) -> None:
