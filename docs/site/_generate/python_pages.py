@@ -19,7 +19,10 @@ TOPICS = {
         "simulate simulate_many read_model write_model write_response export_model uniform_knots CrushModel "
         "PiecewiseLinear Unloading CrushResponse SolverStatistics CrushModels CrushResponses"
     ),
-    "Identification": ("identify fit_error Identification Verdict FitError OrdinateReport ParameterReport StartReport"),
+    "Identification": (
+        "identify equation_error fit_error Identification Verdict FitError OrdinateReport TestReport "
+        "ParameterReport StartReport"
+    ),
     "Heave and pitch": (
         "simulate_pitch identify_pitch read_vehicle write_vehicle write_pitch "
         "read_forcing forcing_of HeavePitchModel Mode "
