@@ -44,11 +44,9 @@ struct FitCase {
       piece.x[n] = random.between(-1.0, 1.0);
       piece.v[n] = random.between(-1.0, 1.0);
     }
-    for (int i = 0; i < 3; ++i) {
-      piece.spring[i] = random.between(0.0, 1e5);
-      piece.damper[i] = random.between(0.0, 1e5);
-      for (auto& basis : piece.basis) basis[i] = random.between(-1.0, 1.0);
-    }
+    for (double& coefficient : piece.force) coefficient = random.between(0.0, 1e5);
+    for (auto& basis : piece.basis)
+      for (double& coefficient : basis) coefficient = random.between(-1.0, 1.0);
     piece.mass = 1500.0;
     time = random_numbers(random, samples + kColumnLanes, 0.3);
     accel = random_numbers(random, samples + kColumnLanes, 300.0);
