@@ -57,7 +57,7 @@ struct CrushModel {
   double impact_speed_mps = kUnset;  ///< Speed it was identified at, the default of simulate() [m/s], > 0 or unset.
   CrushLaw law = CrushLaw::stiffness;
   Extrapolation extrapolation = Extrapolation::constant;
-  PiecewiseLinear spring;  ///< k(|x|): knots [m], ordinates [N/m], >= 0; but for law `stiffness` f(|x|) [N].
+  PiecewiseLinear spring;  ///< Knots [m], ordinates >= 0: law `stiffness` k(|x|) [N/m], the others f(|x|) [N].
   PiecewiseLinear damper;  ///< c(|v|): knots [m/s], ordinates [N s/m], >= 0; law `crush_damping`: c(|x|), knots [m].
   double rate_coefficient = kUnset;     ///< Law `rate`: r [-], >= 0.
   double reference_speed_mps = kUnset;  ///< Law `rate`: v_ref [m/s], > 0.

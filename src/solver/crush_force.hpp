@@ -3,6 +3,7 @@
 ///     F(x, v) = spring(x) (1 + rate ln(1 + per_reference v)) + damper(v) + cross x v
 /// with polynomials spring and damper.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -82,14 +83,22 @@ struct RegionForce {
     return (spring[1] + 2.0 * x * spring[2]) * hardening(v) + cross * v;
   }
   [[nodiscard]] double by_v(double x, double v) const {
-    const double by_rate = rate == 0.0 ? 0.0 : value(spring, x) * rate * per_reference / (1.0 + per_reference * v);
+    const double by_rate = rate == 0.0 ? 0.0 : value(spring, x) * rate * per_reference * log_slope(per_reference * v);
     return by_rate + damper[1] + 2.0 * v * damper[2] + cross * x;
   }
 
  private:
-  [[nodiscard]] double hardening(double v) const {
-    return rate == 0.0 ? 1.0 : 1.0 + rate * std::log1p(per_reference * v);
+  /// Of the logarithm's argument: an integrator that tries a step beyond v = 0 must not meet its pole. From here on the
+  /// tangent goes on.
+  static constexpr double kLeastArgument = -0.5;
+
+  [[nodiscard]] double hardening(double v) const { return rate == 0.0 ? 1.0 : 1.0 + rate * log_of(per_reference * v); }
+  /// ln(1 + s).
+  [[nodiscard]] static double log_of(double s) {
+    if (s >= kLeastArgument) return std::log1p(s);
+    return std::log1p(kLeastArgument) + (s - kLeastArgument) / (1.0 + kLeastArgument);
   }
+  [[nodiscard]] static double log_slope(double s) { return 1.0 / (1.0 + std::max(s, kLeastArgument)); }
   [[nodiscard]] double damping_at(double x, double v) const { return value(damper, v) + cross * x * v; }
 };
 

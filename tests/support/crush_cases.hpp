@@ -2,6 +2,7 @@
 /// Crush models that several tests use.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -94,6 +95,35 @@ inline CrushModel random_crush_model(Random& random) {
   if (model.extrapolation == Extrapolation::linear) raise_last_line(model.damper.ordinates);
   if (model.extrapolation == Extrapolation::linear && model.unloading.bilateral)
     raise_last_line(model.spring.ordinates);
+  return model;
+}
+
+/// The same with law `crush_damping`, its damper over the reach of the crush (at times with the spring's knots, at
+/// times with one knot), or `rate`, its reference speed from far below the impact's to beyond it.
+inline CrushModel random_model_of(CrushLaw law, Random& random) {
+  CrushModel model;
+  do {
+    model = random_crush_model(random);
+  } while (model.law != CrushLaw::force || (law == CrushLaw::rate && model.spring.knots.empty()));
+  model.law = law;
+  if (law == CrushLaw::rate) {
+    model.damper = {};
+    model.rate_coefficient = random.whole(0, 7) == 0 ? 0.0 : random.between(0.01, 0.5);
+    model.reference_speed_mps = model.impact_speed_mps * std::pow(10.0, random.between(-4.0, 0.5));
+    return model;
+  }
+  if (model.damper.knots.empty()) return model;
+  const int kind = random.whole(0, 5);
+  if (kind == 0) model.damper = {{0.0}, {model.damper.ordinates.back()}};
+  if (kind == 1 && !model.spring.knots.empty()) {
+    const double most = model.damper.ordinates.back();
+    model.damper = {model.spring.knots, std::vector<double>(model.spring.knots.size())};
+    for (double& c : model.damper.ordinates) c = most * random.between(0.0, 1.5);
+    std::ranges::sort(model.damper.ordinates);  // so that no last line falls
+    return model;
+  }
+  const double metre_per_speed = random.between(0.005, 0.04);
+  for (double& knot : model.damper.knots) knot *= metre_per_speed;
   return model;
 }
 

@@ -24,7 +24,8 @@ struct CrushReference {
          return_speed_mps = kUnset;  ///< Where the return line's force vanishes, and speed there.
 };
 
-/// One curve as a force: ordinate(|s|) s, or ordinate(|s|) sign(s), evaluated on the line of a piece wherever s is.
+/// One curve as a force: ordinate(|s|) s, or ordinate(|s|) sign(s), evaluated on the line of a piece wherever s is; or
+/// as the factor ordinate(|s|) itself.
 class ReferenceCurve {
  public:
   using Real = long double;
@@ -53,6 +54,8 @@ class ReferenceCurve {
   [[nodiscard]] Real slope(Piece p, Real s) const {
     return multiplied_ ? ordinate(p, s) + rise(p) * s * static_cast<Real>(p.sign) : rise(p);
   }
+  [[nodiscard]] Real factor(Piece p, Real s) const { return ordinate(p, s); }
+  [[nodiscard]] Real factor_slope(Piece p) const { return rise(p) * static_cast<Real>(p.sign); }
   [[nodiscard]] Real lower(Piece p) const { return p.sign > 0 ? knots_[p.index] : -outer(p); }
   [[nodiscard]] Real upper(Piece p) const { return p.sign > 0 ? outer(p) : -knots_[p.index]; }
   [[nodiscard]] static Piece neighbour(Piece p, int direction) {
@@ -79,14 +82,17 @@ class ReferenceCurve {
   bool multiplied_, linear_;
 };
 
-/// m x'' + F_k(x) + F_c(x') = 0 from impact.
+/// m x'' + F_k + F_c = 0 from impact, of every law.
 class CrushReferenceSolver {
  public:
   using Real = ReferenceCurve::Real;
 
   CrushReferenceSolver(const CrushModel& model, double speed)
       : spring_(model.spring, model.law == CrushLaw::stiffness, model.extrapolation),
-        damper_(model.damper, true, model.extrapolation),
+        damper_(over_speed(model), true, model.extrapolation),
+        damping_(over_crush(model), false, model.extrapolation),
+        rate_(model.law == CrushLaw::rate ? Real(model.rate_coefficient) : 0.0L),
+        reference_speed_(model.law == CrushLaw::rate ? Real(model.reference_speed_mps) : 1.0L),
         mass_(model.mass_kg),
         unloading_(model.unloading),
         bilateral_(model.unloading.bilateral),
@@ -110,7 +116,7 @@ class CrushReferenceSolver {
   struct State {
     Real x, v;
   };
-  enum class Kind { spring_knot, damper_knot, force_zero };
+  enum class Kind { spring_knot, damping_knot, damper_knot, force_zero };
   struct Event {
     Kind kind;
     Real h;
@@ -119,15 +125,37 @@ class CrushReferenceSolver {
   static constexpr Real kStepTolerance = 1e-15L, kRounding = 1e-17L, kForceRounding = 1e-15L;
   static constexpr Real kLongestStep = 5e-4L, kShortestStep = 1e-14L, kSameTime = 1e-13L;  // s
 
-  [[nodiscard]] Real force(const State& y) const {
-    return spring_.force(spring_piece_, y.x) + damper_.force(damper_piece_, y.v);
+  static PiecewiseLinear over_speed(const CrushModel& model) {
+    return model.law == CrushLaw::crush_damping ? PiecewiseLinear() : model.damper;
   }
+  static PiecewiseLinear over_crush(const CrushModel& model) {
+    return model.law == CrushLaw::crush_damping ? model.damper : PiecewiseLinear();
+  }
+
+  /// r ln(1 + |v| / v_ref), on the side of v = 0 where the motion is.
+  [[nodiscard]] Real hardening(Real v) const {
+    return rate_ == 0.0L ? 0.0L : rate_ * std::log1p(static_cast<Real>(damper_piece_.sign) * v / reference_speed_);
+  }
+  [[nodiscard]] Real hardening_slope(Real v) const {
+    const auto sign = static_cast<Real>(damper_piece_.sign);
+    return rate_ * sign / (reference_speed_ + sign * v);
+  }
+  [[nodiscard]] Real spring_force(const State& y) const { return spring_.force(spring_piece_, y.x); }
+  [[nodiscard]] Real damper_force(const State& y) const {
+    return spring_force(y) * hardening(y.v) + damper_.force(damper_piece_, y.v) +
+           damping_.factor(damping_piece_, y.x) * y.v;
+  }
+  [[nodiscard]] Real force(const State& y) const { return spring_force(y) + damper_force(y); }
   [[nodiscard]] Real force_rate(const State& y) const {
-    return spring_.slope(spring_piece_, y.x) * y.v - damper_.slope(damper_piece_, y.v) * force(y) / mass_;
+    const Real by_x =
+        spring_.slope(spring_piece_, y.x) * (1.0L + hardening(y.v)) + damping_.factor_slope(damping_piece_) * y.v;
+    const Real by_v = spring_force(y) * hardening_slope(y.v) + damper_.slope(damper_piece_, y.v) +
+                      damping_.factor(damping_piece_, y.x);
+    return by_x * y.v - by_v * force(y) / mass_;
   }
   /// Force, with what rounding leaves of it taken for zero.
   [[nodiscard]] Real clean_force(const State& y) const {
-    const Real spring = spring_.force(spring_piece_, y.x), damper = damper_.force(damper_piece_, y.v);
+    const Real spring = spring_force(y), damper = damper_force(y);
     const Real sum = spring + damper;
     const Real scale = std::abs(spring) + std::abs(damper) + mass_ * speed_ * speed_ / length_;
     return std::abs(sum) > kForceRounding * scale ? sum : 0.0L;
@@ -214,13 +242,16 @@ class CrushReferenceSolver {
     };
     for (const int side : {-1, 1}) {
       const Real sign = -static_cast<Real>(side);
-      const Real x_bound = side < 0 ? spring_.lower(spring_piece_) : spring_.upper(spring_piece_);
-      if (sign * (end.x - x_bound) < -kRounding * length_)
-        consider({Kind::spring_knot,
-                  root([=](const State& y) { return sign * (y.x - x_bound); },
-                       [=](const State& y) { return sign * y.v; }, 0.0L, h),
-                  side});
-      const Real v_bound = side < 0 ? damper_.lower(damper_piece_) : damper_.upper(damper_piece_);
+      const auto consider_crush = [&](Kind kind, Real bound) {
+        if (sign * (end.x - bound) < -kRounding * length_)
+          consider({kind,
+                    root([=](const State& y) { return sign * (y.x - bound); },
+                         [=](const State& y) { return sign * y.v; }, 0.0L, h),
+                    side});
+      };
+      consider_crush(Kind::spring_knot, bound_of(spring_, spring_piece_, side));
+      consider_crush(Kind::damping_knot, bound_of(damping_, damping_piece_, side));
+      const Real v_bound = bound_of(damper_, damper_piece_, side);
       if (sign * (end.v - v_bound) < -kRounding * speed_)
         consider({Kind::damper_knot,
                   root([=](const State& y) { return sign * (y.v - v_bound); },
@@ -256,12 +287,19 @@ class CrushReferenceSolver {
     return Event{Kind::force_zero, at};
   }
 
+  static Real bound_of(const ReferenceCurve& curve, ReferenceCurve::Piece piece, int side) {
+    return side < 0 ? curve.lower(piece) : curve.upper(piece);
+  }
+
   void apply(const Event& event) {
     if (event.kind == Kind::spring_knot) {
-      y_.x = event.direction < 0 ? spring_.lower(spring_piece_) : spring_.upper(spring_piece_);
+      y_.x = bound_of(spring_, spring_piece_, event.direction);
       spring_piece_ = ReferenceCurve::neighbour(spring_piece_, event.direction);
+    } else if (event.kind == Kind::damping_knot) {
+      y_.x = bound_of(damping_, damping_piece_, event.direction);
+      damping_piece_ = ReferenceCurve::neighbour(damping_piece_, event.direction);
     } else if (event.kind == Kind::damper_knot) {
-      y_.v = event.direction < 0 ? damper_.lower(damper_piece_) : damper_.upper(damper_piece_);
+      y_.v = bound_of(damper_, damper_piece_, event.direction);
       damper_piece_ = ReferenceCurve::neighbour(damper_piece_, event.direction);
       if (y_.v == 0.0L && event.direction < 0 && std::isnan(out_.t_m_s)) {
         out_.t_m_s = static_cast<double>(t_);
@@ -307,8 +345,8 @@ class CrushReferenceSolver {
 
   void record() {
     const Real line = return_stiffness_ * (y_.x - return_end_);
-    const Real spring = separated_ ? 0.0L : returning_ ? line : spring_.force(spring_piece_, y_.x);
-    const Real damper = separated_ || returning_ ? 0.0L : damper_.force(damper_piece_, y_.v);
+    const Real spring = separated_ ? 0.0L : returning_ ? line : spring_force(y_);
+    const Real damper = separated_ || returning_ ? 0.0L : damper_force(y_);
     out_.displacement_m.push_back(static_cast<double>(y_.x));
     out_.velocity_mps.push_back(static_cast<double>(y_.v));
     out_.accel_mps2.push_back(static_cast<double>(-(spring + damper) / mass_));
@@ -316,13 +354,14 @@ class CrushReferenceSolver {
     out_.damper_force_n.push_back(static_cast<double>(damper));
   }
 
-  ReferenceCurve spring_, damper_;
+  ReferenceCurve spring_, damper_, damping_;
+  Real rate_, reference_speed_;
   Real mass_;
   Unloading unloading_;
   bool bilateral_;
   Real length_, speed_;
   State y_;
-  ReferenceCurve::Piece spring_piece_{}, damper_piece_;
+  ReferenceCurve::Piece spring_piece_{}, damping_piece_{}, damper_piece_;
   bool separated_ = false, returning_ = false;
   Real return_stiffness_ = 0.0L, return_end_ = 0.0L;
   Real t_ = 0.0L, h_ = kLongestStep;

@@ -80,6 +80,40 @@ TEST(CrushModel, RefusesBadUnloading) {
   }
 }
 
+TEST(CrushModel, RefusesARateThatIsNone) {
+  const auto rate = [](double r, double v_ref) {
+    return [=](CrushModel& m) {
+      m = test::syn_b();
+      m.law = CrushLaw::rate;
+      m.rate_coefficient = r;
+      m.reference_speed_mps = v_ref;
+    };
+  };
+  for (const double r : {kUnset, -0.1, std::numeric_limits<double>::infinity()})
+    expect_refused(rate(r, 1.0), fmt::format("CrushModel.rate_coefficient = {}: must be >= 0 with law rate", r));
+  for (const double v_ref : {kUnset, 0.0, -1.0})
+    expect_refused(rate(0.1, v_ref),
+                   fmt::format("CrushModel.reference_speed_mps = {} m/s: must be > 0 with law rate", v_ref));
+  expect_refused(
+      [&](CrushModel& m) {
+        const PiecewiseLinear damper = m.damper;
+        rate(0.1, 1.0)(m);
+        m.damper = damper;
+      },
+      "CrushModel.damper: law rate has none: its rate effect is rate_coefficient");
+  expect_refused([](CrushModel& m) { m.rate_coefficient = 0.1; },
+                 "CrushModel.rate_coefficient: goes with law rate, this is stiffness: choose rate or leave it out");
+  expect_refused(
+      [](CrushModel& m) {
+        m.law = CrushLaw::crush_damping;
+        m.reference_speed_mps = 1.0;
+      },
+      "CrushModel.reference_speed_mps: goes with law rate, this is crush_damping");
+  CrushModel model;
+  rate(0.0, 1e-6)(model);
+  EXPECT_NO_THROW(validate(model));
+}
+
 TEST(CrushModel, UnloadingIsEqualWhenTheSameNumbersAreUnset) {
   const Unloading elastic, plastic{UnloadingKind::plastic, false, kUnset, 0.1};
   EXPECT_EQ(elastic, Unloading());
@@ -133,6 +167,45 @@ TEST(CrushModel, ForcesAreTheCurvesOrdinatesOddInTheirVariable) {
       EXPECT_NEAR(damper_force(model, v), expected, rounding);
       EXPECT_NEAR(damper_force(model, -v), -expected, rounding);
     }
+  }
+}
+
+TEST(CrushModel, DampingOverCrushIsTheCurvesOrdinateTimesVelocity) {
+  test::Random random(13);
+  for (int i = 0; i < 100; ++i) {
+    CrushModel model = test::random_model_of(CrushLaw::crush_damping, random);
+    if (model.damper.knots.empty()) continue;
+    for (int j = 0; j < 20; ++j) {
+      const double x = std::max(model.damper.knots.back(), 0.1) * random.between(0.0, 1.5);
+      const double v = random.between(-20.0, 20.0);
+      const double expected = ordinate(model, model.damper, x) * v;
+      const double rounding = kRounding * std::ranges::max(model.damper.ordinates) * std::abs(v) *
+                              static_cast<double>(model.damper.knots.size());
+      EXPECT_NEAR(damper_force(model, x, v), expected, rounding);
+      EXPECT_NEAR(damper_force(model, -x, v), expected, rounding) << "even in x";
+      if (!model.spring.knots.empty()) {
+        EXPECT_NEAR(spring_force(model, x), ordinate(model, model.spring, x),
+                    kRounding * std::ranges::max(model.spring.ordinates) *
+                        static_cast<double>(model.spring.knots.size() + model.damper.knots.size()));
+      }
+    }
+    EXPECT_THAT([&] { damper_force(model, 1.0); },
+                ThrowsMessage<InvalidInput>(HasSubstr("with law crush_damping the damper's force depends on the crush, "
+                                                      "too: give crush and velocity")));
+  }
+}
+
+TEST(CrushModel, ARateIsALogarithmOfTheSpeedTimesTheForce) {
+  test::Random random(14);
+  for (int i = 0; i < 100; ++i) {
+    const CrushModel model = test::random_model_of(CrushLaw::rate, random);
+    const double x = std::max(model.spring.knots.back(), 0.1) * random.between(-1.5, 1.5);
+    const double v = model.impact_speed_mps * random.between(-1.0, 1.0);
+    const double factor = model.rate_coefficient * std::log(1.0 + std::abs(v) / model.reference_speed_mps);
+    const double force = spring_force(model, x);
+    EXPECT_NEAR(damper_force(model, x, v), force * factor, kRounding * std::abs(force) * (1.0 + factor));
+    EXPECT_THAT([&] { damper_force(model, v); },
+                ThrowsMessage<InvalidInput>(HasSubstr("with law rate the damper's force depends on the crush")));
   }
 }
 
