@@ -41,6 +41,7 @@ std::vector<NamedLength> lengths_of(const CrushModels& models) {
   add("damper_ordinates", static_cast<std::size_t>(models.damper_ordinates.rows()));
   add("spring_knots", static_cast<std::size_t>(models.spring_knots.rows()));
   add("damper_knots", static_cast<std::size_t>(models.damper_knots.rows()));
+  add("rate_coefficient", models.rate_coefficient.size());
   return lengths;
 }
 
@@ -72,6 +73,7 @@ void set_model(const CrushModels& models, std::size_t index, CrushModel& model) 
   set_row(models.spring_knots, model.spring.knots);
   set_row(models.damper_ordinates, model.damper.ordinates);
   set_row(models.damper_knots, model.damper.knots);
+  model.rate_coefficient = entry_or(models.rate_coefficient, index, model.rate_coefficient);
 }
 
 void check_columns(const RowMatrix& matrix, std::size_t knots, std::string_view name, std::string_view curve) {
@@ -184,11 +186,12 @@ LaneWork work_of(const Study& study, std::size_t first, std::size_t count, Scrat
 }
 
 /// One model by simulate(). @returns steps.
-long run_alone(const Study& study, std::size_t index) {
+long run_alone(const Study& study, std::size_t index, Integrator integrator) {
   SimulateOptions options;
   options.times_s = study.out.time_s;
+  if (!study.needs_samples()) options.times_s = {study.out.time_s.back()};
   options.rtol = study.options.rtol;
-  options.integrator = Integrator::cvode;
+  options.integrator = integrator;
   CrushResponse run = simulate(study.models.model(index), options);
   for (auto* column : {&run.accel_mps2, &run.velocity_mps, &run.displacement_m})
     column->resize(study.samples(), kUnset);
@@ -203,9 +206,13 @@ long run_alone(const Study& study, std::size_t index) {
   return run.statistics.steps;
 }
 
+/// A logarithm in the force is nothing for many motions at once.
+bool runs_alone(const Study& study) { return study.models.common.law == CrushLaw::rate; }
+
 std::unique_ptr<Worker> make_worker(const Study& study) {
   const double rtol = study.options.rtol;
   auto worker = std::make_unique<Worker>();
+  if (runs_alone(study)) return worker;
   if (study.options.integrator == ManyIntegrator::taylor)
     worker->lanes = std::make_unique<LaneMotions>(study.out.time_s, kStepPerResult * rtol, widest_instruction_set());
   if (study.options.integrator == ManyIntegrator::cvode_batch)
@@ -224,9 +231,11 @@ void run_block(const Study& study, std::size_t block, Worker& worker) {
     worker.steps += worker.lanes->run(work_of(study, first, count, worker.scratch));
   } else if (worker.batch) {
     worker.steps += worker.batch->run(work_of(study, first, count, worker.scratch), worker.alone);
-    for (const std::size_t i : worker.alone) worker.steps += run_alone(study, first + i);
+    for (const std::size_t i : worker.alone) worker.steps += run_alone(study, first + i, Integrator::cvode);
   } else {
-    for (std::size_t i = first; i < first + count; ++i) worker.steps += run_alone(study, i);
+    const bool by_taylor = study.options.integrator == ManyIntegrator::taylor;
+    for (std::size_t i = first; i < first + count; ++i)
+      worker.steps += run_alone(study, i, by_taylor ? Integrator::taylor : Integrator::cvode);
   }
 }
 

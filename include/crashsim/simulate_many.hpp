@@ -25,10 +25,11 @@ struct CrushModels {
   std::vector<double> mass_kg;           ///< [kg], > 0.
   std::vector<double> impact_speed_mps;  ///< [m/s], > 0.
   std::vector<double> restitution;       ///< Of plastic unloading, 0..1.
-  RowMatrix spring_ordinates;            ///< [N/m], law `force` [N]; as many columns as `common` has spring knots.
-  RowMatrix damper_ordinates;            ///< [N s/m]
-  RowMatrix spring_knots;                ///< [m], each row from 0 and increasing.
-  RowMatrix damper_knots;                ///< [m/s]
+  std::vector<double> rate_coefficient;  ///< Of law `rate`, >= 0.
+  RowMatrix spring_ordinates;  ///< [N] (law `stiffness`: [N/m]); as many columns as `common` has spring knots.
+  RowMatrix damper_ordinates;  ///< [N s/m]
+  RowMatrix spring_knots;      ///< [m], each row from 0 and increasing.
+  RowMatrix damper_knots;      ///< [m/s], law `crush_damping` [m].
 
   /// Number of models: the length of the arrays, 1 without any.
   /// @throws InvalidInput when two arrays have different lengths.
@@ -53,7 +54,8 @@ inline constexpr std::span<const std::string_view> enum_names<ManyMetrics>{kMany
 /// knots. Outcomes are those of `cvode`, but where a motion comes as near to another one as that error. A model's
 /// numbers depend, within the error, on those it shares a problem with: models 0..63, 64..127 and so on. Motions that
 /// others would have to wait for are simulated alone: of a bilateral elastic force that jumps at x = 0, and those that
-/// grow without bound.
+/// grow without bound. Models of law `rate` are always simulated alone, with `taylor` by simulate()'s Taylor kernel,
+/// with the others by CVODE.
 enum class ManyIntegrator { taylor, cvode, cvode_batch };
 inline constexpr std::string_view kManyIntegratorNames[] = {"taylor", "cvode", "cvode_batch"};
 template <>

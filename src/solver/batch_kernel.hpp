@@ -17,11 +17,12 @@ using BatchNumbers = double[kBatch];
 /// Not 0 where a model of the group needs attention.
 using BatchFlags = std::int64_t[kBatchGroups];
 
-/// dv/dt = constant + x1 x + x2 x^2 + v1 v + v2 v^2 and dx/dt = moves v, inside the bounds.
+/// dv/dt = constant + x1 x + x2 x^2 + v1 v + v2 v^2 + xv x v and dx/dt = moves v, inside the bounds.
 struct alignas(64) BatchForce {
-  BatchNumbers constant{}, x1{}, x2{}, v1{}, v2{};
+  BatchNumbers constant{}, x1{}, x2{}, v1{}, v2{}, xv{};
   BatchNumbers moves{};  ///< 1, or 0 for a model that has left the problem.
   BatchNumbers x_low{}, x_high{}, v_low{}, v_high{};
+  bool has_xv = false;  ///< A model may have an xv other than 0. Last, so that the numbers stay aligned.
 };
 
 /// What a model may reach without anything to be done about it.

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kMostTerms = 16;  // more than an Adams method has
 
-template <std::size_t W>
-bool rates(const BatchForce& force, const double* y, double* ydot, BatchFlags& outside) {
+template <std::size_t W, bool HasXv>
+CRASHSIM_INLINE bool rates_of(const BatchForce& force, const double* y, double* ydot, BatchFlags& outside) {
   using D = typename Vectors<W>::Doubles;
   using I = typename Vectors<W>::Integers;
   std::int64_t any = 0;
@@ -18,8 +18,9 @@ bool rates(const BatchForce& force, const double* y, double* ydot, BatchFlags& o
     I out = I{};
     for (std::size_t i = group * kBatchGroup; i < (group + 1) * kBatchGroup; i += W) {
       const D x = load<D>(y + i), v = load<D>(y + kBatch + i);
-      const D accel = (load<D>(force.constant + i) + x * (load<D>(force.x1 + i) + x * load<D>(force.x2 + i))) +
-                      v * (load<D>(force.v1 + i) + v * load<D>(force.v2 + i));
+      D accel = (load<D>(force.constant + i) + x * (load<D>(force.x1 + i) + x * load<D>(force.x2 + i))) +
+                v * (load<D>(force.v1 + i) + v * load<D>(force.v2 + i));
+      if constexpr (HasXv) accel += load<D>(force.xv + i) * (x * v);
       store(D(v * load<D>(force.moves + i)), ydot + i);
       store(accel, ydot + kBatch + i);
       out |= (x < load<D>(force.x_low + i)) | (x > load<D>(force.x_high + i)) | (v < load<D>(force.v_low + i)) |
@@ -28,6 +29,11 @@ bool rates(const BatchForce& force, const double* y, double* ydot, BatchFlags& o
     any |= outside[group] = any_of(out) ? 1 : 0;
   }
   return any != 0;
+}
+
+template <std::size_t W>
+bool rates(const BatchForce& force, const double* y, double* ydot, BatchFlags& outside) {
+  return force.has_xv ? rates_of<W, true>(force, y, ydot, outside) : rates_of<W, false>(force, y, ydot, outside);
 }
 
 template <std::size_t W>

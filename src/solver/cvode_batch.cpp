@@ -95,6 +95,7 @@ long CvodeBatch::run(const LaneWork& work, std::vector<std::size_t>& alone) {
 void CvodeBatch::start(const LaneWork& work, std::vector<std::size_t>& alone) {
   Unknowns y{};
   live_.clear();
+  force_.has_xv = false;
   for (std::size_t i = 0; i < kBatch; ++i) remove(i);
   // Of a quadratic mean over all kBatch models: as if over those there are.
   const double share =
@@ -133,6 +134,7 @@ void CvodeBatch::enter(std::size_t index, double weight) {
   model.damper = model.state.region.damper;
   live_.push_back(index);
   force_.moves[index] = 1.0;
+  force_.has_xv |= !model.data.force.damping.empty();
   set_polynomials(index);
   set_limits(index);
   weights_[index] = weight / kCrashTime;
@@ -169,6 +171,7 @@ void CvodeBatch::rates(const double* y, double* ydot) {
       follow(i, x, v);
       ydot[kBatch + i] =
           (force_.constant[i] + x * (force_.x1[i] + x * force_.x2[i])) + v * (force_.v1[i] + v * force_.v2[i]);
+      if (force_.has_xv) ydot[kBatch + i] += force_.xv[i] * (x * v);
     }
   }
 }
@@ -185,14 +188,15 @@ void CvodeBatch::follow(std::size_t index, double x, double v) {
 void CvodeBatch::set_polynomials(std::size_t index) {
   const Model& model = models_[index];
   const CrushForce& force = model.data.force;
-  const Quadratic& spring = force.spring_polynomials[static_cast<std::size_t>(model.spring)];
-  const Quadratic& damper = force.damper_polynomials[static_cast<std::size_t>(model.damper)];
+  const RegionForce here = region_force(force, model.spring, model.damper);
+  const Quadratic &spring = here.spring, &damper = here.damper;
   const double per_mass = -1.0 / model.data.mass_kg;
   force_.constant[index] = per_mass * (spring[0] + damper[0]);
   force_.x1[index] = per_mass * spring[1];
   force_.x2[index] = per_mass * spring[2];
   force_.v1[index] = per_mass * damper[1];
   force_.v2[index] = per_mass * damper[2];
+  force_.xv[index] = per_mass * here.cross;
   force_.x_low[index] = force.spring.lower(model.spring);
   force_.x_high[index] = force.spring.upper(model.spring);
   force_.v_low[index] = force.damper.lower(model.damper);
@@ -317,7 +321,8 @@ void CvodeBatch::finish_row(std::size_t index) {
 
 void CvodeBatch::remove(std::size_t index) {
   models_[index].live = false;
-  for (BatchNumbers* numbers : {&force_.constant, &force_.x1, &force_.x2, &force_.v1, &force_.v2, &force_.moves})
+  for (BatchNumbers* numbers :
+       {&force_.constant, &force_.x1, &force_.x2, &force_.v1, &force_.v2, &force_.xv, &force_.moves})
     (*numbers)[index] = 0.0;
   for (BatchNumbers* numbers : {&force_.x_low, &force_.v_low, &limits_.x_low, &limits_.v_low})
     (*numbers)[index] = -kInfinity;

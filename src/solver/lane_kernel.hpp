@@ -18,9 +18,9 @@ using LaneNumbers = double[kMotions];
 /// decides.
 enum class LaneEnd : std::int64_t { step, damper_below, damper_above, spring_below, spring_above, unclear };
 
-/// dv/dt = constant + x1 x + x2 x^2 + v1 v + v2 v^2 within a segment.
+/// dv/dt = constant + x1 x + x2 x^2 + v1 v + v2 v^2 + xv x v within a segment.
 struct alignas(64) LaneForce {
-  LaneNumbers constant{}, x1{}, x2{}, v1{}, v2{};
+  LaneNumbers constant{}, x1{}, x2{}, v1{}, v2{}, xv{};
 };
 
 /// A step of each lane.
@@ -39,6 +39,8 @@ struct alignas(64) LaneBlock {
   LaneNumbers tau{};                                       ///< Where it ends, at an event or its length.
   LaneNumbers x_to{}, v_to{};                              ///< State there.
   std::int64_t end[kMotions]{};                            ///< LaneEnd
+  // Given, too; last, so that the numbers stay aligned:
+  bool has_xv = false;  ///< A lane may have an xv other than 0.
 };
 
 /// Samples of one lane's step: motion at times[i] - base for i below `count`; up to kMotions - 1 values after them are

@@ -13,11 +13,12 @@ constexpr int kMostIterations = 12;
 constexpr double kSettled = 1e-9;  // of the step: Newton's method doubles the digits, so that this move was its last
 
 /// A step of W lanes: the force, and the series of the motion.
-template <std::size_t W>
+template <std::size_t W, bool HasXv>
 struct Step {
   using D = typename Vectors<W>::Doubles;
   using I = typename Vectors<W>::Integers;
-  D constant, x1, x2, v1, v2;
+  static constexpr bool kHasXv = HasXv;
+  D constant, x1, x2, v1, v2, xv;
   D x[kLaneDegree + 1], v[kLaneDegree + 1];
 };
 
@@ -30,12 +31,26 @@ CRASHSIM_INLINE D square_coefficient(const D* c, int n) {
   return sum;
 }
 
+template <class S, class D = typename S::D>
+CRASHSIM_INLINE D product_coefficient(const D* a, const D* b, int n) {
+  D sum = D{};
+  for (int i = 0; i <= n; ++i) sum += a[i] * b[n - i];
+  return sum;
+}
+
+/// `sum` and a term of xv, where there is one: the bits of other lanes do not depend on their neighbours.
+template <class S, class D = typename S::D>
+CRASHSIM_INLINE D with_xv(const S& step, const D& sum, const D& factor) {
+  return step.xv != 0.0 ? sum + step.xv * factor : sum;
+}
+
 template <class S>
 CRASHSIM_INLINE void set_series(S& step) {
 #pragma GCC unroll 16
   for (int n = 0; n < kLaneDegree; ++n) {
     auto accel = step.x1 * step.x[n] + step.v1 * step.v[n] + step.x2 * square_coefficient<S>(step.x, n) +
                  step.v2 * square_coefficient<S>(step.v, n);
+    if constexpr (S::kHasXv) accel = with_xv(step, accel, product_coefficient<S>(step.x, step.v, n));
     if (n == 0) accel += step.constant;
     const double factor = 1.0 / static_cast<double>(n + 1);
     step.x[n + 1] = step.v[n] * factor;
@@ -97,10 +112,16 @@ struct Pull {
 };
 template <class S, class D = typename S::D>
 CRASHSIM_INLINE Pull<S> pull_at(const S& step, const D& x, const D& v, const D& margin) {
-  const D accel = (step.constant + x * (step.x1 + x * step.x2)) + v * (step.v1 + v * step.v2);
-  const D by_x = step.x1 + 2.0 * x * step.x2, by_v = step.v1 + 2.0 * v * step.v2;
-  const D terms = size_of(step.constant) + size_of(x) * (size_of(step.x1) + size_of(x * step.x2)) +
-                  size_of(v) * (size_of(step.v1) + size_of(v * step.v2));
+  D accel = (step.constant + x * (step.x1 + x * step.x2)) + v * (step.v1 + v * step.v2);
+  D by_x = step.x1 + 2.0 * x * step.x2, by_v = step.v1 + 2.0 * v * step.v2;
+  D terms = size_of(step.constant) + size_of(x) * (size_of(step.x1) + size_of(x * step.x2)) +
+            size_of(v) * (size_of(step.v1) + size_of(v * step.v2));
+  if constexpr (S::kHasXv) {
+    accel = with_xv(step, accel, x * v);
+    by_x = with_xv(step, by_x, v);
+    by_v = with_xv(step, by_v, x);
+    terms += size_of(step.xv * x * v);
+  }
   const D least = kClearForce * terms + 10.0 * margin * (kLengthPerSpeed * size_of(by_x) + size_of(by_v));
   return {accel, by_x * v + by_v * accel, size_of(accel) <= least};
 }
@@ -225,9 +246,9 @@ CRASHSIM_INLINE void leave_segments(const S& step, const LaneBlock& block, std::
   v = polynomial(step.v, tau);
 }
 
-template <std::size_t W>
+template <std::size_t W, bool HasXv>
 CRASHSIM_INLINE void advance_lanes(LaneBlock& block, std::size_t first) {
-  using S = Step<W>;
+  using S = Step<W, HasXv>;
   using D = typename S::D;
   using I = typename S::I;
   S step;
@@ -236,6 +257,7 @@ CRASHSIM_INLINE void advance_lanes(LaneBlock& block, std::size_t first) {
   step.x2 = load<D>(block.force.x2 + first);
   step.v1 = load<D>(block.force.v1 + first);
   step.v2 = load<D>(block.force.v2 + first);
+  if constexpr (HasXv) step.xv = load<D>(block.force.xv + first);
   step.x[0] = load<D>(block.x_from + first);
   step.v[0] = load<D>(block.v_from + first);
   set_series(step);
@@ -258,13 +280,18 @@ CRASHSIM_INLINE void advance_lanes(LaneBlock& block, std::size_t first) {
   __builtin_memcpy(block.end + first, &end, sizeof(I));
 }
 
-template <std::size_t W>
-CRASHSIM_INLINE void advance(LaneBlock& block) {
-  for (std::size_t first = 0; first < kMotions; first += W) advance_lanes<W>(block, first);
+template <std::size_t W, bool HasXv>
+CRASHSIM_INLINE void advance_all(LaneBlock& block) {
+  for (std::size_t first = 0; first < kMotions; first += W) advance_lanes<W, HasXv>(block, first);
 }
 
 template <std::size_t W>
-CRASHSIM_INLINE void sample(const LaneBlock& block, std::size_t lane, const LaneSamples& samples) {
+CRASHSIM_INLINE void advance(LaneBlock& block) {
+  block.has_xv ? advance_all<W, true>(block) : advance_all<W, false>(block);
+}
+
+template <std::size_t W, bool HasXv>
+CRASHSIM_INLINE void sample_lane(const LaneBlock& block, std::size_t lane, const LaneSamples& samples) {
   using D = typename Vectors<W>::Doubles;
   double cx[kLaneDegree + 1], cv[kLaneDegree + 1];
   for (int n = 0; n <= kLaneDegree; ++n) {
@@ -272,7 +299,7 @@ CRASHSIM_INLINE void sample(const LaneBlock& block, std::size_t lane, const Lane
     cv[n] = block.v[n][lane];
   }
   const double constant = block.force.constant[lane], x1 = block.force.x1[lane], x2 = block.force.x2[lane],
-               v1 = block.force.v1[lane], v2 = block.force.v2[lane];
+               v1 = block.force.v1[lane], v2 = block.force.v2[lane], xv = block.force.xv[lane];
   for (std::size_t i = 0; i < samples.count; i += W) {
     D tau;
     __builtin_memcpy(&tau, samples.times + i, sizeof(D));
@@ -284,11 +311,18 @@ CRASHSIM_INLINE void sample(const LaneBlock& block, std::size_t lane, const Lane
       x = x * tau + cx[n];
       v = v * tau + cv[n];
     }
-    const D a = (constant + x * (x1 + x * x2)) + v * (v1 + v * v2);
+    D a = (constant + x * (x1 + x * x2)) + v * (v1 + v * v2);
+    if constexpr (HasXv) a += xv * (x * v);
     __builtin_memcpy(samples.accel + i, &a, sizeof(D));
     __builtin_memcpy(samples.velocity + i, &v, sizeof(D));
     __builtin_memcpy(samples.displacement + i, &x, sizeof(D));
   }
+}
+
+template <std::size_t W>
+CRASHSIM_INLINE void sample(const LaneBlock& block, std::size_t lane, const LaneSamples& samples) {
+  block.force.xv[lane] != 0.0 ? sample_lane<W, true>(block, lane, samples)
+                              : sample_lane<W, false>(block, lane, samples);
 }
 
 template <std::size_t W>

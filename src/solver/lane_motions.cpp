@@ -78,6 +78,8 @@ void LaneMotions::enter_region(std::size_t lane) {
   block_.force.x2[lane] = per_mass * spring[2];
   block_.force.v1[lane] = per_mass * damper[1];
   block_.force.v2[lane] = per_mass * damper[2];
+  block_.force.xv[lane] = per_mass * force.cross;
+  block_.has_xv |= force.cross != 0.0;
   block_.x_low[lane] = problem.force.spring.lower(region.spring);
   block_.x_high[lane] = problem.force.spring.upper(region.spring);
   block_.v_low[lane] = problem.force.damper.lower(region.damper);

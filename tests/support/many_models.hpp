@@ -1,6 +1,7 @@
 #pragma once
 /// Random families of crush models, as simulate_many() takes them.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -45,6 +46,28 @@ inline CrushModels random_family(std::uint64_t seed, std::size_t count) {
     for (Eigen::Index j = 0; dampers > 0 && j < dampers; ++j)
       models.damper_ordinates(i, j) = one_in(6) ? 0.0 : random.between(0.0, 3e4);
   }
+  return models;
+}
+
+/// The same of law `crush_damping` or `rate`.
+inline CrushModels random_family_of(CrushLaw law, std::uint64_t seed, std::size_t count) {
+  constexpr double kForcePerStiffness = 0.4;  // m
+  CrushModels models = random_family(seed, count);
+  CrushModel& common = models.common;
+  if (common.law == CrushLaw::stiffness) models.spring_ordinates *= kForcePerStiffness;
+  common.law = law;
+  Random random(seed + 1000);
+  if (law == CrushLaw::crush_damping) {
+    const double last = random.whole(1, 3) == 1 ? 0.7 : random.between(0.2, 0.9);  // 0.7: a knot of both curves
+    common.damper.knots = uniform_knots(last, static_cast<int>(common.damper.knots.size()));
+    return models;
+  }
+  common.damper = {};
+  models.damper_ordinates.resize(0, 0);
+  // Not far below: the force near standstill depends on the error of v by that of v_ref.
+  common.reference_speed_mps = std::pow(10.0, random.between(-1.0, 1.0));
+  models.rate_coefficient.resize(count);
+  for (double& r : models.rate_coefficient) r = random.between(0.0, 0.4);
   return models;
 }
 

@@ -100,6 +100,26 @@ TEST(CvodeBatch, AgreesWithCvodeOneByOne) {
   EXPECT_LE(*std::max_element(all.begin(), all.end()), kWorst);
 }
 
+TEST(CvodeBatch, AgreesWithCvodeOneByOneWhereDampingFollowsTheCrush) {
+  std::vector<double> all;
+  for (std::uint64_t family = 1; family <= 6; ++family) {
+    const CrushModels models = test::random_family_of(CrushLaw::crush_damping, family, 70);
+    const CrushResponses batch = run(models, ManyIntegrator::cvode_batch);
+    const CrushResponses record = run(models, ManyIntegrator::cvode);
+    EXPECT_EQ(batch.outcome, record.outcome) << "family " << family;
+    const std::vector<double> here = differences(batch, record);
+    all.insert(all.end(), here.begin(), here.end());
+  }
+  EXPECT_LE(ninetieth_percentile(all), kUsual);
+  EXPECT_LE(*std::max_element(all.begin(), all.end()), kWorst);
+}
+
+TEST(CvodeBatch, LeavesTheLawRateToCvodeAlone) {
+  const CrushModels models = test::random_family_of(CrushLaw::rate, 3, 5);
+  for (const double error : differences(run(models, ManyIntegrator::cvode_batch), run(models, ManyIntegrator::cvode)))
+    EXPECT_EQ(error, 0.0);
+}
+
 TEST(CvodeBatch, FollowsItsTolerance) {
   CrushModels models = test::random_family(12, 64);
   const CrushResponses record = run(models, ManyIntegrator::cvode, 1e-10);
@@ -254,11 +274,13 @@ INSTANTIATE_TEST_SUITE_P(InstructionSets, CvodeBatchOn, testing::Values(Instruct
 
 TEST_P(CvodeBatchOn, GivesTheBitsOfTheBaseline) {
   if (!is_available(GetParam())) GTEST_SKIP() << "this processor does not have it";
-  for (const std::uint64_t family : {1U, 8U}) {
-    const CrushModels models = test::random_family(family, kBatch - 3);
+  std::vector<CrushModels> families = {test::random_family(1, kBatch - 3), test::random_family(8, kBatch - 3)};
+  families.push_back(test::random_family_of(CrushLaw::crush_damping, 2, kBatch - 3));
+  for (const CrushModels& models : families) {
     const std::vector<double> baseline = accelerations(models, InstructionSet::baseline);
     const std::vector<double> wide = accelerations(models, GetParam());
-    EXPECT_EQ(std::memcmp(baseline.data(), wide.data(), baseline.size() * sizeof(double)), 0) << "family " << family;
+    EXPECT_EQ(std::memcmp(baseline.data(), wide.data(), baseline.size() * sizeof(double)), 0)
+        << "law " << name_of(models.common.law);
   }
 }
 

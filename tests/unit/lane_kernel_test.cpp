@@ -17,7 +17,9 @@ constexpr double kTolerance = 1e-9;
 std::vector<CrushModel> random_models(int count) {
   test::Random random(11);
   std::vector<CrushModel> models;
-  for (int i = 0; i < count; ++i) models.push_back(test::random_crush_model(random));
+  for (int i = 0; i < count; ++i)
+    models.push_back(i % 3 == 2 ? test::random_model_of(CrushLaw::crush_damping, random)
+                                : test::random_crush_model(random));
   return models;
 }
 

@@ -17,6 +17,7 @@ namespace crashsim {
 namespace {
 
 constexpr int kFamilies = 100;
+constexpr int kFamiliesOfLaw = 20;
 constexpr std::size_t kModelsEach = 100;
 constexpr double kAgreement = 1e-8;  // of each channel's size, for both engines at rtol 1e-10
 constexpr double kEnd_s = 0.15;
@@ -75,21 +76,37 @@ Worst compare(const CrushModels& models) {
   return worst;
 }
 
-TEST(ManyModels, TenThousandRandomOnesAgreeWithCvode) {
-  std::vector<Worst> worst(kFamilies);
-  parallel_for(kFamilies, thread_count(0),
+/// Compares families 1..count, made by `make`(seed).
+template <class Make>
+void expect_agreement(int count, const Make& make) {
+  std::vector<Worst> worst(static_cast<std::size_t>(count));
+  parallel_for(count, thread_count(0),
                [&](int, int family) {
-                 worst[static_cast<std::size_t>(family)] =
-                     compare(test::random_family(static_cast<std::uint64_t>(family) + 1, kModelsEach));
+                 worst[static_cast<std::size_t>(family)] = compare(make(static_cast<std::uint64_t>(family) + 1));
                },
                {});
-  for (int family = 0; family < kFamilies; ++family) {
+  for (int family = 0; family < count; ++family) {
     const Worst& here = worst[static_cast<std::size_t>(family)];
     EXPECT_EQ(here.outcomes, "") << "family " << family;
     EXPECT_LE(here.displacement, kAgreement) << "family " << family << ", model " << here.model;
     EXPECT_LE(here.velocity, kAgreement) << "family " << family << ", model " << here.model;
     EXPECT_LE(here.accel, kAgreement) << "family " << family << ", model " << here.model;
   }
+}
+
+TEST(ManyModels, TenThousandRandomOnesAgreeWithCvode) {
+  expect_agreement(kFamilies, [](std::uint64_t seed) { return test::random_family(seed, kModelsEach); });
+}
+
+TEST(ManyModels, OfCrushDampingAgreeWithCvode) {
+  expect_agreement(kFamiliesOfLaw, [](std::uint64_t seed) {
+    return test::random_family_of(CrushLaw::crush_damping, seed, kModelsEach);
+  });
+}
+
+TEST(ManyModels, OfRateAgreeWithCvode) {
+  expect_agreement(kFamiliesOfLaw / 2,
+                   [](std::uint64_t seed) { return test::random_family_of(CrushLaw::rate, seed, kModelsEach / 2); });
 }
 
 }  // namespace
