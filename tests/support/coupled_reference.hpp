@@ -91,6 +91,16 @@ class CoupledReference {
     const Real s = crush(y), rate = crush_rate(y);
     const Real k = ordinate(model_.crush.spring, s);
     const Real spring = model_.crush.law == CrushLaw::stiffness ? k * s : (behind_ ? -k : k);
+    switch (model_.crush.law) {
+      case CrushLaw::crush_damping:
+        return spring + ordinate(model_.crush.damper, s) * rate;
+      case CrushLaw::rate:
+        return spring *
+               (1.0L + model_.crush.rate_coefficient * std::log1p(std::abs(rate) / model_.crush.reference_speed_mps));
+      case CrushLaw::stiffness:
+      case CrushLaw::force:
+        break;
+    }
     return spring + ordinate(model_.crush.damper, rate) * rate;
   }
   [[nodiscard]] Real angle(const State& y) const {
@@ -117,7 +127,7 @@ class CoupledReference {
     if (!separated_) {
       const Real friction = model_.vertical.friction, ratio = std::tan(angle(y));
       k = {segment(model_.crush.spring, crush(y)),
-           segment(model_.crush.damper, crush_rate(y)),
+           segment(model_.crush.damper, model_.crush.law == CrushLaw::crush_damping ? crush(y) : crush_rate(y)),
            crush_rate(y) < 0.0L ? 1 : 0,
            crush(y) < 0.0L ? 1 : 0,
            longitudinal(y) < -pull_tolerance_ ? 1 : 0,
@@ -193,7 +203,7 @@ class CoupledReference {
   void unload() {
     const Unloading& unloading = model_.crush.unloading;
     if (unloading.kind != UnloadingKind::plastic) return;
-    max_force_ = longitudinal(y_);
+    max_force_ = longitudinal(y_);  // at rest: the spring's alone
     const Real share = unloading.restitution * speed_;
     return_stiffness_ = std::isnan(unloading.unloading_stiffness_n_per_m)
                             ? max_force_ * max_force_ / (share * share * body_.mass_kg)

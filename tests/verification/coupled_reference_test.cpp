@@ -102,6 +102,25 @@ TEST(CoupledReference, RandomModelsAgreeWithAnIndependentIntegrator) {
   RecordProperty("worst", fmt::format("{:.2g}", seen.worst));
 }
 
+TEST(CoupledReference, EveryLawAgreesWithAnIndependentIntegrator) {
+  constexpr double kLowestReference = 0.5;  // m/s: the reference's fixed steps resolve it
+  test::Random random(44);
+  for (const CrushLaw law : {CrushLaw::crush_damping, CrushLaw::rate}) {
+    Seen seen;
+    for (int i = 0; i < 30; ++i) {
+      CoupledModel model = test::random_coupled_model(random);
+      model.crush = test::random_model_of(law, random);
+      if (law == CrushLaw::rate)
+        model.crush.reference_speed_mps = std::max(model.crush.reference_speed_mps, kLowestReference);
+      if (i % 5 == 0) model.crush.unloading = {UnloadingKind::plastic, false, kUnset, random.between(0.02, 0.1)};
+      if (simulate_coupled(model, options()).outcome == CoupledOutcome::unloading_too_soft) continue;
+      expect_reference(model, {}, std::string(name_of(law)) + ", model " + std::to_string(i), seen);
+    }
+    EXPECT_GT(seen.separated, 8);
+    RecordProperty("worst_" + std::string(name_of(law)), fmt::format("{:.2g}", seen.worst));
+  }
+}
+
 TEST(CoupledReference, AGivenVerticalForceAgreesWithAnIndependentIntegrator) {
   test::Random random(42);
   Seen seen;
