@@ -20,8 +20,9 @@ namespace {
 
 constexpr std::string_view kFormat = "crashsim.crush_model";
 constexpr int kVersionOfFormat = 1;
-constexpr std::string_view kSpringKnots = "knots_m", kDamperKnots = "knots_mps";
+constexpr std::string_view kCrushKnots = "knots_m", kSpeedKnots = "knots_mps";
 constexpr std::string_view kDamperOrdinates = "ordinates_ns_per_m";
+constexpr std::string_view kRateCoefficient = "coefficient", kReferenceSpeed = "reference_speed_mps";
 constexpr std::string_view kReturnStiffness = "unloading_stiffness_n_per_m", kRestitution = "restitution";
 
 struct Key {
@@ -34,18 +35,22 @@ constexpr Key kKeys[] = {
     {"", "source", "", "where it comes from, for people", "", ""},
     {"", "mass_kg", "kg", "test mass", "> 0", ""},
     {"", "impact_speed_mps", "m/s", "speed it was identified at, the default of simulate", "> 0", ""},
-    {"", "law", "", "what the spring's ordinates are", "", "stiffness, force"},
+    {"", "law", "", "what spring and damper are curves of", "", "stiffness, force, crush_damping, rate"},
     {"", "extrapolation", "", "what a curve does beyond its last knot", "", "constant, linear, error"},
-    {"", "spring", "", "k(|x|); it or damper may be left out", "", ""},
-    {"", "damper", "", "c(|v|)", "", ""},
+    {"", "spring", "", "k(|x|) or f(|x|); it or damper may be left out", "", ""},
+    {"", "damper", "", "c(|v|), law crush_damping: c(|x|); none with law rate", "", ""},
+    {"", "rate", "", "law rate: the factor 1 + r ln(1 + |v| / v_ref) of the spring's force", "", ""},
     {"", "unloading", "", "behaviour after maximum crush", "", ""},
     {"", "identification", "", "written by identify, not read", "", ""},
     {"", "record", "", "written by crashsim: what made the file", "", ""},
     {"spring", "knots_m", "m", "crush at the knots: first 0, increasing", "", ""},
     {"spring", "ordinates_n_per_m", "N/m", "stiffness at the knots (law stiffness)", ">= 0", ""},
-    {"spring", "ordinates_n", "N", "force at the knots (law force)", ">= 0", ""},
+    {"spring", "ordinates_n", "N", "force at the knots (every other law)", ">= 0", ""},
     {"damper", "knots_mps", "m/s", "speed at the knots: first 0, increasing", "", ""},
+    {"damper", "knots_m", "m", "instead, with law crush_damping: crush at the knots", "", ""},
     {"damper", "ordinates_ns_per_m", "N s/m", "damping at the knots", ">= 0", ""},
+    {"rate", kRateCoefficient, "", "r", ">= 0", ""},
+    {"rate", kReferenceSpeed, "m/s", "v_ref", "> 0", ""},
     {"unloading", "kind", "", "path back", "", "elastic, plastic"},
     {"unloading", "bilateral", "", "the barrier pulls, too: contact is never lost", "", "true, false"},
     {"unloading", kReturnStiffness, "N/m", "plastic: slope of the line back; it or restitution", "> 0", ""},
@@ -63,6 +68,8 @@ std::vector<std::string_view> keys_of(std::string_view section) {
 std::string_view spring_ordinates(CrushLaw law) {
   return law == CrushLaw::stiffness ? "ordinates_n_per_m" : "ordinates_n";
 }
+
+std::string_view damper_knots(CrushLaw law) { return law == CrushLaw::crush_damping ? kCrushKnots : kSpeedKnots; }
 
 /// One JSON object of the file, for messages that say where.
 class Object {
@@ -122,6 +129,12 @@ Unloading read_unloading(const Object& json) {
   return unloading;
 }
 
+void read_rate(const Object& json, CrushModel& model) {
+  json.allow_only(keys_of("rate"));
+  model.rate_coefficient = json.number(kRateCoefficient);
+  model.reference_speed_mps = json.number(kReferenceSpeed);
+}
+
 CrushModel read(const Object& file) {
   file.allow_only(keys_of(""));
   CrushModel model;
@@ -129,8 +142,9 @@ CrushModel read(const Object& file) {
   if (file.has("impact_speed_mps")) model.impact_speed_mps = file.number("impact_speed_mps");
   file.read_choice("law", model.law);
   file.read_choice("extrapolation", model.extrapolation);
-  model.spring = read_curve(file, "spring", kSpringKnots, spring_ordinates(model.law));
-  model.damper = read_curve(file, "damper", kDamperKnots, kDamperOrdinates);
+  model.spring = read_curve(file, "spring", kCrushKnots, spring_ordinates(model.law));
+  model.damper = read_curve(file, "damper", damper_knots(model.law), kDamperOrdinates);
+  if (file.has("rate")) read_rate(Object(file.get("rate"), file.name("rate")), model);
   if (file.has("unloading")) model.unloading = read_unloading(Object(file.get("unloading"), file.name("unloading")));
   return model;
 }
@@ -249,8 +263,11 @@ std::string format_model(const CrushModel& model, const Identification* identifi
   if (!std::isnan(model.impact_speed_mps)) json["impact_speed_mps"] = model.impact_speed_mps;
   json["law"] = name_of(model.law);
   json["extrapolation"] = name_of(model.extrapolation);
-  if (!model.spring.knots.empty()) json["spring"] = curve_json(model.spring, kSpringKnots, spring_ordinates(model.law));
-  if (!model.damper.knots.empty()) json["damper"] = curve_json(model.damper, kDamperKnots, kDamperOrdinates);
+  if (!model.spring.knots.empty()) json["spring"] = curve_json(model.spring, kCrushKnots, spring_ordinates(model.law));
+  if (!model.damper.knots.empty()) json["damper"] = curve_json(model.damper, damper_knots(model.law), kDamperOrdinates);
+  if (model.law == CrushLaw::rate)
+    json["rate"] = {{std::string(kRateCoefficient), model.rate_coefficient},
+                    {std::string(kReferenceSpeed), model.reference_speed_mps}};
   json["unloading"] = unloading_json(model.unloading);
   if (identification != nullptr) json["identification"] = identification_json(*identification);
   if (record != nullptr) json["record"] = record_json(*record);

@@ -31,14 +31,18 @@ CrushModel random_model(test::Random& random) {
   CrushModel model;
   model.mass_kg = random.between(1.0, 5000.0);
   if (random.whole(0, 1) == 1) model.impact_speed_mps = random.between(0.1, 50.0);
-  model.law = random.whole(0, 1) == 1 ? CrushLaw::force : CrushLaw::stiffness;
+  model.law = static_cast<CrushLaw>(random.whole(0, 3));
   model.extrapolation = static_cast<Extrapolation>(random.whole(0, 2));
   model.unloading.bilateral = random.whole(0, 1) == 1;
   const int unloading = random.whole(0, 2);
   if (unloading > 0) model.unloading.kind = UnloadingKind::plastic;
   if (unloading == 1) model.unloading.restitution = random.between(0.0, 1.0);
   if (unloading == 2) model.unloading.unloading_stiffness_n_per_m = random.between(1.0, 1e9);
-  const int curves = random.whole(0, 2);
+  const int curves = model.law == CrushLaw::rate ? 2 : random.whole(0, 2);
+  if (model.law == CrushLaw::rate) {
+    model.rate_coefficient = random.between(0.0, 1.0);
+    model.reference_speed_mps = random.between(1e-6, 10.0);
+  }
   if (curves != 1) model.spring = random_curve(random, 0.2, 1e7);
   if (curves != 2) model.damper = random_curve(random, 4.0, 1e5);
   return model;
@@ -55,6 +59,11 @@ void expect_same(const CrushModel& a, const CrushModel& b) {
   EXPECT_EQ(a.unloading, b.unloading);
   EXPECT_EQ(a.spring, b.spring);
   EXPECT_EQ(a.damper, b.damper);
+  EXPECT_EQ(std::isnan(a.rate_coefficient), std::isnan(b.rate_coefficient));
+  if (a.law == CrushLaw::rate) {
+    EXPECT_EQ(a.rate_coefficient, b.rate_coefficient);
+    EXPECT_EQ(a.reference_speed_mps, b.reference_speed_mps);
+  }
 }
 
 TEST(ModelFile, ComesBackBitForBit) {
@@ -104,6 +113,46 @@ TEST(ModelFile, SaysHowPlasticUnloadingGoes) {
             (Unloading{UnloadingKind::plastic, true, 1e7, kUnset}));
 }
 
+TEST(ModelFile, OfEachLawHasItsKeys) {
+  const test::TempDir dir;
+  const auto read = [&](const std::string& keys) {
+    return read_model(
+        dir.file("m.json", R"({"format": "crashsim.crush_model", "version": 1, "mass_kg": 1500, )" + keys + "}"));
+  };
+  const auto refuses = [&](const std::string& keys, const std::string& message) {
+    EXPECT_THAT([&] { read(keys); }, ThrowsMessage<InvalidInput>(HasSubstr(message))) << keys;
+  };
+  const std::string spring = R"("spring": {"knots_m": [0], "ordinates_n": [1e5]})";
+  const CrushModel damping = read(R"("law": "crush_damping", "damper": {"knots_m": [0, 0.5],
+      "ordinates_ns_per_m": [1, 2]}, )" +
+                                  spring);
+  EXPECT_EQ(damping.damper, (PiecewiseLinear{{0.0, 0.5}, {1.0, 2.0}}));
+  EXPECT_EQ(damping.spring, (PiecewiseLinear{{0.0}, {1e5}}));
+  const CrushModel rate = read(R"("law": "rate", "rate": {"coefficient": 0.1, "reference_speed_mps": 2}, )" + spring);
+  EXPECT_EQ(rate.rate_coefficient, 0.1);
+  EXPECT_EQ(rate.reference_speed_mps, 2.0);
+
+  refuses(R"("law": "crush_damping", "damper": {"knots_mps": [0], "ordinates_ns_per_m": [1]})",
+          "m.json: damper: unknown name 'knots_mps'");
+  refuses(R"("law": "force", "damper": {"knots_m": [0], "ordinates_ns_per_m": [1]})",
+          "m.json: damper: unknown name 'knots_m'");
+  refuses(R"("law": "rate", "spring": {"knots_m": [0], "ordinates_n_per_m": [1]})",
+          "m.json: spring: unknown name 'ordinates_n_per_m'");
+  refuses(R"("law": "rate", )" + spring, "m.json: CrushModel.rate_coefficient = nan: must be >= 0 with law rate");
+  refuses(R"("law": "rate", "rate": {"coefficient": 0.1}, )" + spring, "m.json: rate: has no 'reference_speed_mps'");
+  refuses(R"("law": "rate", "rate": {"coefficient": -1, "reference_speed_mps": 2}, )" + spring,
+          "m.json: CrushModel.rate_coefficient = -1: must be >= 0 with law rate");
+  refuses(R"("law": "rate", "rate": {"coefficient": 1, "reference_speed_mps": 2, "r": 3}, )" + spring,
+          "m.json: rate: unknown name 'r'");
+  refuses(R"("law": "force", "rate": {"coefficient": 0.1, "reference_speed_mps": 2}, )" + spring,
+          "m.json: CrushModel.rate_coefficient: goes with law rate, this is force");
+  refuses(R"("law": "rate", "rate": {"coefficient": 0.1, "reference_speed_mps": 2}, "damper": {"knots_mps": [0],
+          "ordinates_ns_per_m": [1]}, )" +
+              spring,
+          "m.json: CrushModel.damper: law rate has none");
+  refuses(R"("law": "ratio", )" + spring, "m.json: law: unknown name 'ratio', did you mean 'rate'?");
+}
+
 TEST(ModelFile, CarriesIdentificationAndRecordThatAreNotRead) {
   const test::TempDir dir;
   CrushModel model;
@@ -145,7 +194,7 @@ TEST(ModelKeys, AreThoseThatAreWritten) {
   std::vector<std::string> known;
   for (const FileKey& key : model_keys()) known.push_back(key.section.empty() ? key.key : key.section + "." + key.key);
   test::Random random(3);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const nlohmann::json json = nlohmann::json::parse(format_model(random_model(random)));
     for (const auto& [key, value] : json.items()) {
       EXPECT_THAT(known, testing::Contains(key));
