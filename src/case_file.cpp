@@ -23,7 +23,8 @@ namespace {
 /// What stands in [sweep] and [monte_carlo] beside options: numbers of other sections by their keys.
 constexpr std::string_view kAnyNumber = "<section>.<key>";
 constexpr const char* kSweepDoc =
-    "values of any number of the sections above, or of the model's ordinates crush.k1, .. and crush.c1, ..: "
+    "values of any number of the sections above, or of the model's ordinates crush.k1, .. and crush.c1, .. or "
+    "crush.rate_coefficient: "
     "[\"40 km/h\", \"48 km/h\"], \"1 t..1.4 t:5\", or factors {values = [0.9, 1.1], relative = true}";
 constexpr const char* kMonteCarloDoc =
     "distribution of such a number: {normal = [mean, deviation], lower = .., upper = ..}, {lognormal = [mean, "

@@ -79,11 +79,13 @@ CrushResponses simulate_all(const SamplePlan& plan, const std::vector<CrushModel
   const auto count = std::ssize(models);
   all.spring_ordinates.resize(count, std::ssize(all.common.spring.ordinates));
   all.damper_ordinates.resize(count, std::ssize(all.common.damper.ordinates));
+  const bool has_rate = all.common.law == CrushLaw::rate;
   const bool has_restitution = !std::isnan(all.common.unloading.restitution);
   for (Eigen::Index i = 0; i < count; ++i) {
     const CrushModel& model = models[static_cast<std::size_t>(i)];
     all.mass_kg.push_back(model.mass_kg);
     all.impact_speed_mps.push_back(model.impact_speed_mps);
+    if (has_rate) all.rate_coefficient.push_back(model.rate_coefficient);
     if (has_restitution) all.restitution.push_back(model.unloading.restitution);
     std::ranges::copy(model.spring.ordinates, all.spring_ordinates.row(i).begin());
     std::ranges::copy(model.damper.ordinates, all.damper_ordinates.row(i).begin());

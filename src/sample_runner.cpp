@@ -7,7 +7,6 @@
 
 #include "case_sections.hpp"
 #include "case_steps.hpp"
-#include "sweep_keys.hpp"
 
 namespace crashsim {
 namespace {
@@ -31,7 +30,7 @@ bool makes_forcing(std::string_view key) {
 }
 
 void set_ordinate(CrushModel& model, const OrdinateKey& ordinate, double value) {
-  std::vector<double>& ordinates = (ordinate.curve == 'k' ? model.spring : model.damper).ordinates;
+  const std::span<double> ordinates = ordinates_of(model, ordinate);
   if (ordinate.number > 0)
     ordinates[ordinate.number - 1] = value;
   else
@@ -49,6 +48,11 @@ void set_of_model(CrushModel& model, const std::string& key, double value) {
 }
 
 }  // namespace
+
+std::span<double> ordinates_of(CrushModel& model, const OrdinateKey& ordinate) {
+  if (ordinate.curve == 'r') return {&model.rate_coefficient, model.law == CrushLaw::rate ? 1U : 0U};
+  return (ordinate.curve == 'k' ? model.spring : model.damper).ordinates;
+}
 
 bool is_whole_chain(const SamplePlan& plan) { return std::ranges::any_of(plan.keys, makes_model); }
 

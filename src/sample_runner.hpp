@@ -8,6 +8,8 @@
 
 #include <crashsim/sweep.hpp>
 
+#include "sweep_keys.hpp"
+
 namespace crashsim {
 
 inline constexpr const char* kMassKey = "vehicle.mass";
@@ -23,6 +25,9 @@ bool is_identified_anew(const SamplePlan& plan);
 
 /// Whether nothing but numbers of the crush model varies, and nothing but crush is simulated.
 bool is_crush_alone(const SamplePlan& plan);
+
+/// The ordinates of a curve that varies; none where the model's law has no such curve.
+std::span<double> ordinates_of(CrushModel& model, const OrdinateKey& ordinate);
 
 /// Speed of the case itself [m/s].
 double plan_speed(const SamplePlan& plan);

@@ -28,11 +28,22 @@ double base_of(const SamplePlan& plan, const CaseNumber& number) {
   return number.value;
 }
 
+/// Unit and suffix of the ordinates of a curve.
+struct OrdinateUnit {
+  std::string_view unit, suffix;
+};
+OrdinateUnit unit_of(const OrdinateKey& ordinate, CrushLaw law) {
+  if (ordinate.curve == 'r') return {"", ""};
+  if (ordinate.curve == 'c') return {"N s/m", "_ns_per_m"};
+  return law == CrushLaw::stiffness ? OrdinateUnit{"N/m", "_n_per_m"} : OrdinateUnit{"N", "_n"};
+}
+
 SampleInput ordinate_input(const SamplePlan& plan, const Variation& variation, const OrdinateKey& ordinate,
                            const std::string& what) {
-  const CrushModel& model = plan.base.model;
-  const bool is_spring = ordinate.curve == 'k', is_force = is_spring && model.law == CrushLaw::force;
-  const std::vector<double>& ordinates = (is_spring ? model.spring : model.damper).ordinates;
+  CrushModel model = plan.base.model;
+  const std::span<const double> ordinates = ordinates_of(model, ordinate);
+  if (ordinate.curve == 'r' && ordinates.empty())
+    throw InvalidInput(fmt::format("{}: goes with law rate, the model's is {}", what, name_of(model.law)));
   if (ordinate.number > ordinates.size())
     throw InvalidInput(fmt::format("{}: the model has the ordinates {}1 to {}{}", what, ordinate.curve, ordinate.curve,
                                    ordinates.size()));
@@ -40,8 +51,9 @@ SampleInput ordinate_input(const SamplePlan& plan, const Variation& variation, c
     throw InvalidInput(fmt::format("{}: is a whole curve: give factors, with relative = true", what));
   SampleInput input{variation.key + "_factor", "", {}, kUnset};
   if (ordinate.number > 0) {
-    input.unit = is_force ? "N" : is_spring ? "N/m" : "N s/m";
-    input.name = variation.key + (is_force ? "_n" : is_spring ? "_n_per_m" : "_ns_per_m");
+    const OrdinateUnit unit = unit_of(ordinate, model.law);
+    input.unit = unit.unit;
+    input.name = variation.key + std::string(unit.suffix);
     if (variation.relative) input.base = ordinates[ordinate.number - 1];
   }
   input.distribution = distribution_of(variation, input.unit, what);

@@ -55,7 +55,8 @@ Place spelled(std::string_view name) {
   const Case any;
   std::vector<std::string> keys = others;
   for_each_number(any, [&](const Place& place, const auto&, const auto&) { keys.push_back(joined(place)); });
-  for (const char* ordinate : {"crush.k", "crush.k1", "crush.c", "crush.c1"}) keys.emplace_back(ordinate);
+  for (const char* ordinate : {"crush.k", "crush.k1", "crush.c", "crush.c1", kRateCoefficientKey})
+    keys.emplace_back(ordinate);
   std::ranges::sort(keys);
   const bool has_section = name.find('.') != std::string_view::npos;
   std::vector<std::string_view> known, short_names;
@@ -163,6 +164,7 @@ void set_number(Case& study, std::string_view full_key, double value) {
 std::optional<OrdinateKey> ordinate_key(std::string_view full_key) {
   constexpr std::string_view kSection = "crush.";
   if (!full_key.starts_with(kSection)) return std::nullopt;
+  if (full_key == kRateCoefficientKey) return OrdinateKey{'r', 1};
   const std::string_view name = full_key.substr(kSection.size());
   if (!name.starts_with('k') && !name.starts_with('c')) return std::nullopt;
   OrdinateKey ordinate{name.front()};

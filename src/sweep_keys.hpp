@@ -28,9 +28,10 @@ std::optional<CaseNumber> case_number(const Case& study, std::string_view full_k
 /// Sets a number by its full key. @throws InvalidInput when it is out of range, or no whole number where it must be.
 void set_number(Case& study, std::string_view full_key, double value);
 
-/// An ordinate of the crush curves: "crush.k3"; number 0: all of the curve.
+/// An ordinate of the crush curves: "crush.k3"; number 0: all of the curve. Law `rate` has one more, its coefficient.
+inline constexpr const char* kRateCoefficientKey = "crush.rate_coefficient";
 struct OrdinateKey {
-  char curve = 'k';
+  char curve = 'k';  ///< 'k', 'c', or 'r': the rate coefficient.
   std::size_t number = 0;
 };
 std::optional<OrdinateKey> ordinate_key(std::string_view full_key);

@@ -49,9 +49,9 @@ std::optional<DesignParameter> ordinate_named(std::string_view name, const Crush
     PiecewiseLinear CrushModel::*member;
     std::string_view unit, suffix;
   };
-  const bool is_force = crush.law == CrushLaw::force;
+  const bool is_stiffness = crush.law == CrushLaw::stiffness;
   const Curve curves[] = {
-      {'k', &CrushModel::spring, is_force ? "N" : "N/m", is_force ? "_n" : "_n_per_m"},
+      {'k', &CrushModel::spring, is_stiffness ? "N/m" : "N", is_stiffness ? "_n_per_m" : "_n"},
       {'c', &CrushModel::damper, "N s/m", "_ns_per_m"},
   };
   for (const auto& [letter, member, unit, suffix] : curves)
@@ -61,6 +61,14 @@ std::optional<DesignParameter> ordinate_named(std::string_view name, const Crush
         return DesignParameter{full, std::string(unit), CurveOrdinate{member, i}, at_least(0.0)};
     }
   return std::nullopt;
+}
+
+constexpr std::string_view kRateCoefficient = "rate_coefficient";
+
+/// The coefficient of law `rate`.
+std::optional<DesignParameter> rate_named(std::string_view name, const CrushModel& crush) {
+  if (crush.law != CrushLaw::rate || name != kRateCoefficient) return std::nullopt;
+  return DesignParameter{std::string(name), "", &CrushModel::rate_coefficient, at_least(0.0)};
 }
 
 template <class S>
@@ -78,6 +86,7 @@ void append_flags(std::vector<std::string>& names) {
   append_flags<VerticalForceLaw>(names);
   for (std::size_t i = 0; i < crush.spring.ordinates.size(); ++i) names.push_back(fmt::format("k{}", i + 1));
   for (std::size_t i = 0; i < crush.damper.ordinates.size(); ++i) names.push_back(fmt::format("c{}", i + 1));
+  if (crush.law == CrushLaw::rate) names.emplace_back(kRateCoefficient);
   detail::throw_unknown_name(what, name, {names.begin(), names.end()});
 }
 
@@ -85,6 +94,7 @@ DesignParameter named(std::string_view what, std::string_view name, const CrushM
   if (auto found = member_named<HeavePitchModel>(name)) return *found;
   if (auto found = member_named<VerticalForceLaw>(name)) return *found;
   if (auto found = ordinate_named(name, crush)) return *found;
+  if (auto found = rate_named(name, crush)) return *found;
   refuse_name(what, name, crush);
 }
 
@@ -117,6 +127,7 @@ double DesignParameter::place_of(double value) const { return std::clamp((value 
 double value_of(const CoupledModel& model, const DesignParameter& parameter) {
   if (const auto* member = std::get_if<double HeavePitchModel::*>(&parameter.place)) return model.body.**member;
   if (const auto* member = std::get_if<double VerticalForceLaw::*>(&parameter.place)) return model.vertical.**member;
+  if (const auto* member = std::get_if<double CrushModel::*>(&parameter.place)) return model.crush.**member;
   const auto& [curve, index] = std::get<CurveOrdinate>(parameter.place);
   return (model.crush.*curve).ordinates[index];
 }
@@ -127,6 +138,8 @@ void set_value(CoupledModel& model, const DesignParameter& parameter, double val
     if (*member == &HeavePitchModel::mass_kg) model.crush.mass_kg = value;  // it is one vehicle
   } else if (const auto* law = std::get_if<double VerticalForceLaw::*>(&parameter.place)) {
     model.vertical.** law = value;
+  } else if (const auto* crush = std::get_if<double CrushModel::*>(&parameter.place)) {
+    model.crush.** crush = value;
   } else {
     const auto& [curve, index] = std::get<CurveOrdinate>(parameter.place);
     (model.crush.*curve).ordinates[index] = value;

@@ -10,14 +10,15 @@
 
 namespace crashsim {
 
-/// Where a number of a coupled model is: a member, or an ordinate of one of the crush curves.
+/// Where a number of a coupled model is: a member of one of its parts, or an ordinate of one of the crush curves.
 struct CurveOrdinate {
   PiecewiseLinear CrushModel::*curve;
   std::size_t index;
 
   bool operator==(const CurveOrdinate&) const = default;
 };
-using ModelPlace = std::variant<double HeavePitchModel::*, double VerticalForceLaw::*, CurveOrdinate>;
+using ModelPlace =
+    std::variant<double HeavePitchModel::*, double VerticalForceLaw::*, double CrushModel::*, CurveOrdinate>;
 
 /// One number, sought evenly between its bounds.
 struct DesignParameter {

@@ -104,6 +104,41 @@ TEST(Design, ADerivativeAtTheEndOfWhatAParameterMayBeIsOneSided) {
   EXPECT_TRUE(std::isnan(result.sensitivities.front().relative));
 }
 
+/// Mean of `f` over 0..end by midpoints, times end.
+template <class F>
+double midpoint_rule(double end, const F& f) {
+  constexpr int kIntervals = 100'000;
+  double sum = 0.0;
+  for (int i = 0; i < kIntervals; ++i) sum += f(end * (i + 0.5) / kIntervals);
+  return sum * end / kIntervals;
+}
+
+TEST(Design, TheCoefficientOfARateMayChange) {
+  constexpr double kForce = 3e5, kRate = 0.1, kReference = 0.5;
+  CoupledModel model = linear_model();
+  model.crush.law = CrushLaw::rate;
+  model.crush.spring = {{0.0}, {kForce}};
+  model.crush.damper = {};
+  model.crush.rate_coefficient = kRate;
+  model.crush.reference_speed_mps = kReference;
+  DesignOptions options = stiffness_only();
+  options.parameters = {"rate_coefficient"};
+  options.lower = {"0.05"};
+  options.upper = {"0.3"};
+  const DesignResult result = design(model, options, short_run());
+  ASSERT_TRUE(result.usable()) << result.message;
+  // C = m v_ref^2/f integral of (e^2u - e^u) / (1 + r u) over 0..ln(1 + v0/v_ref)
+  const double end = std::log1p(kSpeed / kReference);
+  const double expected = -kMass * kReference * kReference / kForce * midpoint_rule(end, [](double u) {
+    const double factor = 1.0 + kRate * u;
+    return (std::exp(2.0 * u) - std::exp(u)) * u / (factor * factor);
+  });
+  EXPECT_NEAR(derivative_of(result, "max_crush_m"), expected, kSlope * std::fabs(expected));
+  model.crush = linear_model().crush;
+  EXPECT_THAT([&] { design(model, options, short_run()); },
+              testing::ThrowsMessage<InvalidInput>(testing::HasSubstr("unknown name 'rate_coefficient'")));
+}
+
 TEST(Design, LiesOnTheLimitWhereThatIsTheOptimum) {
   DesignOptions options = stiffness_only(DesignQuantity::peak_decel);
   options.max_crush_m = 0.7;

@@ -107,6 +107,38 @@ TEST_F(Sweep, SamplesOfTheCrushAreThoseOfCasesThatSayTheSame) {
   }
 }
 
+TEST_F(Sweep, SamplesOfEveryLawAreThoseOfCasesThatSayTheSame) {
+  CrushModel rate = read_model(kData + "/neon-kw400/model.json");
+  rate.law = CrushLaw::rate;
+  rate.rate_coefficient = 0.1;
+  rate.reference_speed_mps = 0.5;
+  CrushModel damping = read_model(kData + "/neon-kw400/model.json");
+  damping.law = CrushLaw::crush_damping;
+  damping.damper = {{0.0, 0.3}, {4e3, 1e3}};
+  const std::string numbers[] = {"crush.rate_coefficient = {values = [0.5, 2.0], relative = true}\nk1 = [1e5]\n",
+                                 "crush.c2 = [\"2 kN s/m\"]\nk1 = [1e5]\n"};
+  for (const CrushModel& model : {rate, damping}) {
+    const std::string file = dir.file(std::string(name_of(model.law)) + ".json", format_model(model));
+    const std::string text = fmt::format("[impact]\nspeed = 14\n[crush]\nmodel = \"{}\"\n", file);
+    const bool has_rate = model.law == CrushLaw::rate;
+    const SampleTable table = run(text + "[sweep]\n" + numbers[has_rate ? 0 : 1]);
+    EXPECT_EQ(table.inputs[0].name, has_rate ? "crush.rate_coefficient" : "crush.c2_ns_per_m");
+    EXPECT_EQ(table.inputs[1].name, "crush.k1_n");
+    ASSERT_EQ(table.rows(), has_rate ? 2U : 1U);
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      CrushModel varied = model;
+      varied.spring.ordinates[0] = 1e5;
+      if (has_rate)
+        varied.rate_coefficient = table.at(row, 0);
+      else
+        varied.damper.ordinates[1] = 2e3;
+      Case study = read(text);
+      study.what.model_file = dir.file("model.json", format_model(varied));
+      expect_same(table, row, run_case(study));
+    }
+  }
+}
+
 TEST_F(Sweep, SamplesOfHeaveAndPitchAreThoseOfCasesThatSayTheSame) {
   const SampleTable table =
       run(pitch_case("coupled = true\n[sweep]\nforce_height = [\"450 mm\", 0.5]\n"
@@ -329,6 +361,7 @@ TEST_F(Sweep, WhatTheModelCannotVaryIsRefused) {
       {"[sweep]\nk = [1]\n", "crush.k: is a whole curve: give factors, with relative = true"},
       {"[sweep]\nk1 = [\"3 kN/m\"]\n", "measures stiffness, not force"},
       {"[sweep]\nk1 = [1]\nk = {values = [1], relative = true}\n", "crush.k1: is part of crush.k, which varies, too"},
+      {"[sweep]\nrate_coefficient = [0.1]\n", "crush.rate_coefficient: goes with law rate, the model's is force"},
       {"[sweep]\nrestitution = [0.1]\n", R"(crush.restitution: goes with unloading = "plastic")"},
       {"[sweep]\nrestitution = [0.1]\nunloading_stiffness = [1e6]\n", "vary both: vary one of them"},
       {"[sweep]\nforce_height = {values = [0.9], relative = true}\n", "the case has no such number to multiply"},
