@@ -33,6 +33,35 @@ CardCurve in_units(const ForceCurve& curve, double argument, double force) {
   return card;
 }
 
+/// An even function.
+CardCurve on_both_sides(const CardCurve& curve, double argument) {
+  CardCurve card;
+  for (std::size_t i = curve.argument.size(); i-- > 1;) {
+    card.argument.push_back(-curve.argument[i] / argument);
+    card.force.push_back(curve.force[i]);
+  }
+  for (std::size_t i = 0; i < curve.argument.size(); ++i) {
+    card.argument.push_back(curve.argument[i] / argument);
+    card.force.push_back(curve.force[i]);
+  }
+  return card;
+}
+
+/// @throws InvalidInput where the program has no card for the model's law.
+void check_law(const CrushModel& model, const std::string& to) {
+  const std::vector<double>& c = model.damper.ordinates;
+  if (model.law == CrushLaw::crush_damping && std::ranges::any_of(c, [&](double other) { return other != c.front(); }))
+    throw InvalidInput(
+        fmt::format("export to {}: law crush_damping has no card there: its springs and dampers in one line multiply "
+                    "no velocity by a curve over crush. Export the curves as csv, identify with law force, whose "
+                    "damper goes over velocity, or give a damper of one knot",
+                    to));
+  if (model.law == CrushLaw::rate && model.unloading.kind == UnloadingKind::plastic && to == "lsdyna")
+    throw InvalidInput(
+        "export to lsdyna: law rate with plastic unloading has no card there: *MAT_SPRING_GENERAL_NONLINEAR, which "
+        "unloads, takes no rate. Choose unloading elastic, or export to radioss or csv");
+}
+
 double steepest_of(const ForceCurve& curve) {
   double steepest = 0.0;
   for (std::size_t i = 1; i < curve.argument.size(); ++i)
@@ -82,6 +111,8 @@ void note_limits(const CrushModel& model, CardModel& cards) {
         "or by failure in tension");
   if (model.unloading.kind == UnloadingKind::plastic && !model.damper.knots.empty())
     note("the damper works in unloading, too; the model's is off after maximum crush");
+  if (model.unloading.kind == UnloadingKind::plastic && model.law == CrushLaw::rate)
+    note("the rate multiplies the force in unloading, too; the model's is off after maximum crush");
   if (model.extrapolation == Extrapolation::error)
     note("the model ends where a curve's knots end; the solver goes on along the curve's last line");
   if (model.extrapolation == Extrapolation::linear)
@@ -109,29 +140,66 @@ std::vector<double> coefficients(const ForceCurve& curve, double at_zero) {
   return values;
 }
 
+/// Columns of a table, of different lengths.
+using NamedColumns = std::vector<std::pair<std::string, std::vector<double>>>;
+
+double first_of(const PiecewiseLinear& law) { return law.ordinates.empty() ? kUnset : law.ordinates.front(); }
+
+NamedColumns spring_columns(const CrushModel& model) {
+  const ForceCurve spring = spring_curve(model);
+  const double at_zero = model.law == CrushLaw::stiffness ? first_of(model.spring) : kUnset;
+  return {{"crush_m", spring.argument},
+          {"stiffness_n_per_m", coefficients(spring, at_zero)},
+          {"spring_force_n", spring.force_n}};
+}
+
+/// What the law has besides the spring.
+NamedColumns rate_columns(const CrushModel& model) {
+  if (model.law == CrushLaw::crush_damping) {
+    const CardCurve damping = damping_over_crush(model);
+    return {{"damper_crush_m", damping.argument}, {"damping_ns_per_m", damping.force}};
+  }
+  if (model.law == CrushLaw::rate) {
+    const CardCurve factor = rate_factor(model);
+    return {{"velocity_mps", factor.argument}, {"rate_factor", factor.force}};
+  }
+  const ForceCurve damper = damper_curve(model);
+  return {{"velocity_mps", damper.argument},
+          {"damping_ns_per_m", coefficients(damper, first_of(model.damper))},
+          {"damper_force_n", damper.force_n}};
+}
+
+/// What the columns make of the force.
+Comments law_comments(const CrushModel& model) {
+  Comments comments = {{"law", std::string(name_of(model.law))}};
+  if (model.law == CrushLaw::crush_damping) {
+    comments.emplace_back("force", "spring_force_n(x) + damping_ns_per_m(x) v");
+    comments.emplace_back("symmetry", "F(-x) = -F(x), c(-x) = c(x)");
+  } else if (model.law == CrushLaw::rate) {
+    comments.emplace_back("rate_coefficient", format_number(model.rate_coefficient));
+    comments.emplace_back("reference_speed_mps", format_number(model.reference_speed_mps));
+    comments.emplace_back("force", "spring_force_n(x) rate_factor(v)");
+    comments.emplace_back("symmetry", "F(-x) = -F(x), rate_factor(-v) = rate_factor(v)");
+  } else {
+    comments.emplace_back("symmetry", "F(-x) = -F(x), F(-v) = -F(v)");
+  }
+  return comments;
+}
+
 Exported csv_tables(const CrushModel& model, const Record& record) {
-  const ForceCurve spring = spring_curve(model), damper = damper_curve(model);
-  const auto at_zero = [](const PiecewiseLinear& law) {
-    return law.ordinates.empty() ? kUnset : law.ordinates.front();
-  };
-  const std::size_t rows = std::max(spring.argument.size(), damper.argument.size());
-  const auto x = padded(spring.argument, rows), f = padded(spring.force_n, rows);
-  const auto k = padded(coefficients(spring, model.law == CrushLaw::stiffness ? at_zero(model.spring) : kUnset), rows);
-  const auto v = padded(damper.argument, rows), g = padded(damper.force_n, rows);
-  const auto c = padded(coefficients(damper, at_zero(model.damper)), rows);
+  NamedColumns columns = spring_columns(model);
+  for (auto& column : rate_columns(model)) columns.push_back(std::move(column));
+  std::size_t rows = 0;
+  for (const auto& [name, values] : columns) rows = std::max(rows, values.size());
+  for (auto& [name, values] : columns) values = padded(std::move(values), rows);
   Comments comments = {{"crashsim", record.version}, {"mass_kg", format_number(model.mass_kg)}};
   if (!std::isnan(model.impact_speed_mps))
     comments.emplace_back("impact_speed_mps", format_number(model.impact_speed_mps));
-  comments.emplace_back("law", std::string(name_of(model.law)));
-  comments.emplace_back("symmetry", "F(-x) = -F(x), F(-v) = -F(v)");
+  for (auto& comment : law_comments(model)) comments.push_back(std::move(comment));
   comments.emplace_back("record", to_json(record));
-  return {format_csv(comments, {{"crush_m", x},
-                                {"stiffness_n_per_m", k},
-                                {"spring_force_n", f},
-                                {"velocity_mps", v},
-                                {"damping_ns_per_m", c},
-                                {"damper_force_n", g}}),
-          {}};
+  std::vector<Column> table;
+  for (const auto& [name, values] : columns) table.push_back({name, values});
+  return {format_csv(comments, table), {}};
 }
 
 }  // namespace
@@ -143,6 +211,7 @@ CardModel card_model(const CrushModel& model, const std::string& units) {
   CardModel cards;
   cards.spring = in_units(spring, unit(Dimension::length), unit(Dimension::force));
   cards.damper = in_units(damper_curve(model), unit(Dimension::speed), unit(Dimension::force));
+  if (model.law == CrushLaw::rate) cards.rate = on_both_sides(rate_factor(model), unit(Dimension::speed));
   if (model.unloading.kind == UnloadingKind::plastic && !model.spring.knots.empty())
     cards.unloading_stiffness = unloading_stiffness(model, cards.notes) / unit(Dimension::stiffness);
   cards.steepest = steepest_of(spring) / unit(Dimension::stiffness);
@@ -201,6 +270,7 @@ Exported export_model(const CrushModel& model, const ExportOptions& options, con
       throw InvalidInput(fmt::format("units = {}: a table is in SI, as its columns say: leave it out", options.units));
     return csv_tables(model, record);
   }
+  check_law(model, options.to);
   CardModel cards = card_model(model, options.units);
   const bool is_lsdyna = options.to == "lsdyna";
   if (!is_lsdyna && cards.unloading_stiffness < cards.steepest)

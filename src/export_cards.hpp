@@ -9,7 +9,7 @@
 
 namespace crashsim {
 
-/// Points in the deck's units, over tension and compression.
+/// Points, in a card over tension and compression; `force` may be what a force is multiplied by.
 struct CardCurve {
   std::vector<double> argument, force;
 };
@@ -17,6 +17,7 @@ struct CardCurve {
 /// A model in the deck's units.
 struct CardModel {
   CardCurve spring, damper;             ///< Empty where the model has none.
+  CardCurve rate;                       ///< Law `rate`: what the spring's force is multiplied by, over velocity.
   double unloading_stiffness = kUnset;  ///< Of plastic unloading.
   double steepest = 0.0;                ///< Largest slope of the spring.
   double peak_force = 0.0;              ///< Largest spring force.
@@ -25,6 +26,12 @@ struct CardModel {
   double newton_per_metre = 1.0;        ///< 1 N/m.
   std::vector<std::string> notes;
 };
+
+/// Damping [N s/m] of law `crush_damping` over crush [m].
+CardCurve damping_over_crush(const CrushModel& model);
+
+/// 1 + r ln(1 + v / v_ref) of law `rate` over v >= 0 [m/s].
+CardCurve rate_factor(const CrushModel& model);
 
 /// @throws InvalidInput, NumericalFailure as export_model().
 CardModel card_model(const CrushModel& model, const std::string& units);

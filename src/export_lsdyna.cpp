@@ -27,6 +27,10 @@ std::string part(int id, const std::string& title, int section, int material) {
 }
 
 std::string spring_material(const CardModel& cards, int id) {
+  if (!cards.rate.argument.empty())
+    return curve(id + 1, "crashsim rate, factor over velocity", cards.rate) +
+           fmt::format("*MAT_SPRING_NONLINEAR_ELASTIC\n$      mid       lcd       lcr\n{:10}{:10}{:10}\n", id, id,
+                       id + 1);
   if (std::isnan(cards.unloading_stiffness))
     return fmt::format("*MAT_SPRING_NONLINEAR_ELASTIC\n$      mid       lcd\n{:10}{:10}\n", id, id);
   const double reach = cards.spring.argument.back(), force = cards.unloading_stiffness * reach;

@@ -54,7 +54,7 @@ inline constexpr double kCurveAccuracy = 1e-3;
 /// starts with a force f(0) > 0 is a steep line up to a thousandth of the last knot. Empty without a spring.
 ForceCurve spring_curve(const CrushModel& model);
 
-/// F_c(v), likewise.
+/// F_c(v), likewise. @throws InvalidInput for law `crush_damping`, unless its damping is the same at every crush.
 ForceCurve damper_curve(const CrushModel& model);
 
 /// A file for another program.
@@ -67,8 +67,11 @@ struct Exported {
 /// lsdyna: *DEFINE_CURVE, *MAT_SPRING_NONLINEAR_ELASTIC (plastic unloading: *MAT_SPRING_GENERAL_NONLINEAR),
 /// *MAT_DAMPER_NONLINEAR_VISCOUS with their *PART, *SECTION_DISCRETE, *ELEMENT_DISCRETE and *NODE. radioss: /FUNCT,
 /// /PROP/TYPE4, /PART, /SPRING, /NODE. In both an element's deflection and force are positive in tension; crush is
-/// compression. csv: x, k, F_k and v, c, F_c in columns, the shorter ones ending in empty cells.
-/// @throws InvalidInput on a bad model or option; or where the restitution's unloading stiffness is needed, but no
+/// compression. csv: x, k, F_k and v, c, F_c in columns, the shorter ones ending in empty cells; law `crush_damping` x
+/// and c, law `rate` v and 1 + r ln(1 + v / v_ref) instead of the damper's. Law `rate` is a factor over velocity in the
+/// cards, too; law `crush_damping` has none, unless its damping is the same at every crush.
+/// @throws InvalidInput on a bad model or option; where the program has no card for the law; or where the restitution's
+/// unloading stiffness is needed, but no
 ///         impact speed is known. NumericalFailure when there is no maximum crush to tell it from.
 Exported export_model(const CrushModel& model, const ExportOptions& options, const Record& record);
 
