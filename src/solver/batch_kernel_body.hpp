@@ -10,7 +10,7 @@ namespace {
 constexpr int kMostTerms = 16;  // more than an Adams method has
 
 template <std::size_t W, bool HasXv>
-CRASHSIM_INLINE bool rates_of(const BatchForce& force, const double* y, double* ydot, BatchFlags& outside) {
+[[gnu::noinline]] bool rates_of(const BatchForce& force, const double* y, double* ydot, BatchFlags& outside) {
   using D = typename Vectors<W>::Doubles;
   using I = typename Vectors<W>::Integers;
   std::int64_t any = 0;

@@ -280,8 +280,9 @@ CRASHSIM_INLINE void advance_lanes(LaneBlock& block, std::size_t first) {
   __builtin_memcpy(block.end + first, &end, sizeof(I));
 }
 
+/// A function of its own for each: the common one is compiled as if there were no other.
 template <std::size_t W, bool HasXv>
-CRASHSIM_INLINE void advance_all(LaneBlock& block) {
+[[gnu::noinline]] void advance_all(LaneBlock& block) {
   for (std::size_t first = 0; first < kMotions; first += W) advance_lanes<W, HasXv>(block, first);
 }
 
@@ -291,7 +292,7 @@ CRASHSIM_INLINE void advance(LaneBlock& block) {
 }
 
 template <std::size_t W, bool HasXv>
-CRASHSIM_INLINE void sample_lane(const LaneBlock& block, std::size_t lane, const LaneSamples& samples) {
+[[gnu::noinline]] void sample_lane(const LaneBlock& block, std::size_t lane, const LaneSamples& samples) {
   using D = typename Vectors<W>::Doubles;
   double cx[kLaneDegree + 1], cv[kLaneDegree + 1];
   for (int n = 0; n <= kLaneDegree; ++n) {
