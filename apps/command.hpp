@@ -129,6 +129,7 @@ std::unique_ptr<Command> make_batch(CLI::App& app);
 std::unique_ptr<Command> make_merge(CLI::App& app);
 std::unique_ptr<Command> make_design(CLI::App& app);
 std::unique_ptr<Command> make_export(CLI::App& app);
+std::unique_ptr<Command> make_select(CLI::App& app);
 std::unique_ptr<Command> make_schema(CLI::App& app);
 
 }  // namespace crashsim::cli

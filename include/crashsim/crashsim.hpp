@@ -44,6 +44,8 @@
 #include <crashsim/sample_statistics.hpp>
 #include <crashsim/sample_table.hpp>
 #include <crashsim/sampling.hpp>
+#include <crashsim/select_model.hpp>
+#include <crashsim/select_options.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>

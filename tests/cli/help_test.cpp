@@ -61,7 +61,7 @@ TEST_P(Help, ItsExampleWorksWordForWord) {
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("info", "pulse", "wall", "identify", "simulate", "pitch", "identify-pitch",
                                          "identify-vertical", "compare", "run", "batch", "merge", "design", "export",
-                                         "schema"));
+                                         "schema", "select"));
 
 class Program : public testing::Test {
  protected:
@@ -77,8 +77,9 @@ TEST_F(Program, TellsTheLibrarysVersion) {
 TEST_F(Program, HelpsOnAllCommands) {
   const Finished finished = workspace.run({"--help"});
   EXPECT_EQ(finished.exit_code, kDone);
-  for (const char* command : {"info", "pulse", "wall", "identify", "simulate", "pitch", "identify-pitch",
-                              "identify-vertical", "compare", "run", "batch", "merge", "design", "export", "schema"})
+  for (const char* command :
+       {"info", "pulse", "wall", "identify", "simulate", "pitch", "identify-pitch", "identify-vertical", "compare",
+        "run", "batch", "merge", "design", "export", "schema", "select"})
     EXPECT_THAT(finished.out, HasSubstr(command));
   EXPECT_THAT(examples_in(finished.out), SizeIs(1));
 }

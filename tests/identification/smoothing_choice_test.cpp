@@ -22,14 +22,6 @@ constexpr double kAtMinimum = 1e-5;  // solver: a minimum's place, its value kno
 constexpr double kValue = 1e-9;      // solver: a smooth function near its minimum
 constexpr double kCurvature = 1e-6;  // regression: from differences in 40 digits
 
-VectorXd solve(const EquationErrorSystem& system, const VectorXd& upper, double smooth) {
-  MatrixXd a(system.rows.rows() + system.roughness.rows(), system.rows.cols());
-  a << system.rows, std::sqrt(smooth) * system.roughness;
-  VectorXd b = VectorXd::Zero(a.rows());
-  b.head(system.rhs.size()) = system.rhs;
-  return bounded_least_squares(a, b, upper);
-}
-
 VectorXd generous(Index count) { return VectorXd::Constant(count, 1e3); }
 
 MatrixXd second_differences(Index count) {
@@ -58,9 +50,18 @@ EquationErrorSystem wavy() {
   return wavy([](double x) { return 2.0 + std::sin(3.0 * x) + 0.1 * std::cos(40.0 * x) + 0.05 * std::sin(71.0 * x); });
 }
 
+/// The ordinates at a weight.
+VectorXd ordinates_at(const EquationErrorSystem& system, const VectorXd& upper, double smooth) {
+  MatrixXd a(system.rows.rows() + system.roughness.rows(), system.rows.cols());
+  a << system.rows, std::sqrt(smooth) * system.roughness;
+  VectorXd b = VectorXd::Zero(a.rows());
+  b.head(system.rhs.size()) = system.rhs;
+  return bounded_least_squares(a, b, upper);
+}
+
 /// Score of cross-validation by dense algebra, ordinates at bounds left out of the trace.
 double plain_gcv(const EquationErrorSystem& system, const VectorXd& upper, double smooth) {
-  const VectorXd p = solve(system, upper, smooth);
+  const VectorXd p = ordinates_at(system, upper, smooth);
   std::vector<Index> free;
   for (Index i = 0; i < p.size(); ++i)
     if (p[i] > 0.0 && p[i] < upper[i]) free.push_back(i);
@@ -128,7 +129,7 @@ TEST(SmoothingChoice, WithBoundsIsWhatPlainSearchFinds) {
       wavy([](double x) { return 1.5 * std::sin(7.0 * x) + 0.3 * std::cos(40.0 * x) + 0.2 * std::sin(71.0 * x); });
   const VectorXd upper = VectorXd::Constant(7, 1.2);
   const SmoothingChoice choice = choose_smoothing(system, upper, Smoothing::gcv);
-  const VectorXd p = solve(system, upper, choice.smooth);
+  const VectorXd p = ordinates_at(system, upper, choice.smooth);
   ASSERT_EQ(p.minCoeff(), 0.0);
   ASSERT_EQ(p.maxCoeff(), 1.2);
   EXPECT_NEAR(choice.criterion, plain_gcv(system, upper, choice.smooth), kValue * choice.criterion);
@@ -155,7 +156,8 @@ TEST(SmoothingChoice, OfAStraightCurveWithWavesIsTheLargest) {
   const EquationErrorSystem system = wavy([](double x) { return 1.0 + x + 0.1 * std::cos(37.0 * x); });
   const SmoothingChoice choice = choose_smoothing(system, generous(7), Smoothing::gcv);
   EXPECT_TRUE(choice.at_edge);
-  constexpr double kStraight = 2.0, kNearly = 2e-2;  // solver: what the largest weight leaves of other directions
+  constexpr double kStraight = 2.0,
+                   kNearly = 5e-2;  // solver: five directions, a hundredth of each at the largest weight
   EXPECT_NEAR(choice.freedom, kStraight, kNearly);
 }
 

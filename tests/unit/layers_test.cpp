@@ -109,6 +109,11 @@ const std::map<std::string, Layer> kLayers = {
     {"identify_vertical", identification},
     {"measured_vertical", identification},
     {"optimize/", identification},
+    {"select_candidates", identification},
+    {"select_model", identification},
+    {"select_options", identification},
+    {"select_verdict", identification},
+    {"selection_outputs", identification},
 
     {"batch", pipeline},
     {"batch/", pipeline},
