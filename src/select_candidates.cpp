@@ -42,7 +42,7 @@ std::vector<int> counts_of(const std::vector<double>& numbers, const char* field
 /// The same model under the name of the simplest law that says it; false when it is none.
 bool simplify(SelectionRow& row) {
   if (row.law == CrushLaw::rate) row.damper_knots = 0;
-  if (row.law == CrushLaw::crush_damping && row.damper_knots == 0) row.law = CrushLaw::force;
+  if (row.law == CrushLaw::crush_damping && row.damper_knots < 2) row.law = CrushLaw::force;  // one constant
   if (row.law == CrushLaw::force && row.spring_knots == 0) row.law = CrushLaw::stiffness;
   if (std::max(row.spring_knots, row.damper_knots) < 3) {  // nothing to place, nothing to bend
     row.placement = KnotPlacement::uniform;
