@@ -17,16 +17,41 @@
 namespace crashsim::python {
 namespace {
 
+bool is_number(const py::object& at) {
+  const bool is_single = py::hasattr(at, "ndim") ? at.attr("ndim").cast<int>() == 0 : !is_array_like(at);
+  return is_single && py::hasattr(at, "__float__");
+}
+
 /// f at one number or at each of an array.
 template <class F>
 py::object each(const py::object& at, const std::string& what, const F& f) {
-  const bool is_number = py::hasattr(at, "ndim") ? at.attr("ndim").cast<int>() == 0 : !is_array_like(at);
-  if (is_number && py::hasattr(at, "__float__")) return py::float_(f(py::float_(at).cast<double>()));
+  if (is_number(at)) return py::float_(f(py::float_(at).cast<double>()));
   const Doubles points(at, what);
   check_finite(points);
   std::vector<double> values;
   values.reserve(points.view().size());
   for (const double point : points.view()) values.push_back(f(point));
+  return array_of(std::move(values));
+}
+
+/// f at pairs of two numbers or arrays; a number goes with each of an array.
+template <class F>
+py::object each(const py::object& a, const std::string& what_a, const py::object& b, const std::string& what_b,
+                const F& f) {
+  if (is_number(b))
+    return each(a, what_a, [&, at_b = py::float_(b).cast<double>()](double at_a) { return f(at_a, at_b); });
+  if (is_number(a))
+    return each(b, what_b, [&, at_a = py::float_(a).cast<double>()](double at_b) { return f(at_a, at_b); });
+  const Doubles points_a(a, what_a), points_b(b, what_b);
+  check_finite(points_a);
+  check_finite(points_b);
+  const std::size_t count = points_a.view().size();
+  if (points_b.view().size() != count)
+    throw InvalidInput(what_b + ": has " + std::to_string(points_b.view().size()) + " values and " + what_a + " has " +
+                       std::to_string(count) + ", must be as many");
+  std::vector<double> values;
+  values.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) values.push_back(f(points_a.view()[i], points_b.view()[i]));
   return array_of(std::move(values));
 }
 
@@ -65,17 +90,29 @@ void bind_crush_model(py::module_& module) {
   ValueClass<CrushModel>(module, "CrushModel",
                          R"(One-degree-of-freedom crush against a rigid barrier, [Noorsumar2021] eq. (1)-(3).
 
-    m x'' + F_k + F_c = 0,  F_k = k(abs(x)) x,  F_c = c(abs(v)) v,  x(0) = 0,  v(0) = impact speed
+    m x'' + F_k + F_c = 0,  x(0) = 0,  v(0) = impact speed
+
+by `law`:
+
+    'stiffness'      F_k = k(abs(x)) x,        F_c = c(abs(v)) v
+    'force'          F_k = f(abs(x)) sign(x),  F_c = c(abs(v)) v
+    'crush_damping'  F_k = f(abs(x)) sign(x),  F_c = c(abs(x)) v
+    'rate'           F_k = f(abs(x)) sign(x),  F_c = F_k r ln(1 + abs(v) / v_ref), without a damper
 
 x is crush [m], positive while the front shortens. Fields are keywords of the constructor; spring or damper may be left
 out. Raises InvalidInput, naming the field and the rule, when it is used with a bad value.)")
       .field("mass_kg", &CrushModel::mass_kg, "Test mass [kg], > 0.")
-      .field("spring", &CrushModel::spring, "k: PiecewiseLinear of knots [m], ordinates [N/m] ([N] with law 'force').")
-      .field("damper", &CrushModel::damper, "c: PiecewiseLinear of knots [m/s], ordinates [N s/m].")
+      .field("spring", &CrushModel::spring,
+             "PiecewiseLinear of knots [m]; ordinates with law 'stiffness' k [N/m], else f [N].")
+      .field("damper", &CrushModel::damper,
+             "c: PiecewiseLinear of knots [m/s] ([m] with law 'crush_damping'), ordinates [N s/m].")
       .field("impact_speed_mps", &CrushModel::impact_speed_mps, "Speed it was identified at [m/s], NaN when unset.")
-      .field("law", &CrushModel::law, "What the spring's ordinates are: 'stiffness' or 'force'.")
+      .field("law", &CrushModel::law,
+             "What spring and damper are curves of: 'stiffness', 'force', 'crush_damping' or 'rate'.")
       .field("extrapolation", &CrushModel::extrapolation, "Beyond the last knot: 'constant', 'linear' or 'error'.")
       .field("unloading", &CrushModel::unloading, "Unloading: what happens after maximum crush.")
+      .field("rate_coefficient", &CrushModel::rate_coefficient, "Law 'rate': r, >= 0.")
+      .field("reference_speed_mps", &CrushModel::reference_speed_mps, "Law 'rate': v_ref [m/s], > 0.")
       .def(
           "validate", [](const CrushModel& self) { validate(self); },
           "Raises InvalidInput naming the field, its value and the rule when the model is not one.")
@@ -88,11 +125,15 @@ out. Raises InvalidInput, naming the field and the rule, when it is used with a 
           py::arg("displacement_m"), "Spring force [N] at crush [m], float or array.")
       .def(
           "damper_force",
-          [](const CrushModel& self, const py::object& v) {
+          [](const CrushModel& self, const py::object& v, const py::object& x) {
             validate(self);
-            return each(v, "velocity_mps", [&](double at) { return damper_force(self, at); });
+            if (x.is_none()) return each(v, "velocity_mps", [&](double at) { return damper_force(self, at); });
+            return each(v, "velocity_mps", x, "displacement_m",
+                        [&](double at_v, double at_x) { return damper_force(self, at_x, at_v); });
           },
-          py::arg("velocity_mps"), "Damper force [N] at velocity [m/s], float or array.")
+          py::arg("velocity_mps"), py::arg("displacement_m") = py::none(),
+          "F_c, the force besides the spring's [N], at velocity [m/s], float or array; laws 'crush_damping' and 'rate' "
+          "need the crush [m], too, a number or as many.")
       .def(
           "spring_energy",
           [](const CrushModel& self, const py::object& x) {

@@ -17,10 +17,11 @@ model; what has none is that of `common` in all. Fields are keywords of the cons
       .field("impact_speed_mps", &CrushModels::impact_speed_mps, "Impact speeds, array of n [m/s], > 0.")
       .field("restitution", &CrushModels::restitution, "Of plastic unloading, array of n, 0..1.")
       .field("spring_ordinates", &CrushModels::spring_ordinates,
-             "Array of n x spring knots [N/m]; with law 'force' [N].")
+             "Array of n x spring knots [N]; with law 'stiffness' [N/m].")
       .field("damper_ordinates", &CrushModels::damper_ordinates, "Array of n x damper knots [N s/m].")
       .field("spring_knots", &CrushModels::spring_knots, "Array of n x knots [m], each row from 0 and increasing.")
-      .field("damper_knots", &CrushModels::damper_knots, "Array of n x knots [m/s].")
+      .field("damper_knots", &CrushModels::damper_knots, "Array of n x knots [m/s]; with law 'crush_damping' [m].")
+      .field("rate_coefficient", &CrushModels::rate_coefficient, "Of law 'rate', array of n, >= 0.")
       .def("__len__", &CrushModels::count)
       .def("model", &CrushModels::model, py::arg("index"),
            "One of them, a CrushModel. Raises InvalidInput when `index` is none.");

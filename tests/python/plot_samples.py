@@ -62,6 +62,13 @@ def model(law: object = "stiffness", scale: float = 1.0) -> Any:
     return SimpleNamespace(law=law, spring=spring, damper=damper)
 
 
+def rated(coefficient: float = 0.1, reference_speed_mps: float = 2.0) -> Any:
+    spring = SimpleNamespace(knots=[0.0, 0.3, 0.6], ordinates=[1e5, 2e5, 2e5])
+    none = SimpleNamespace(knots=[], ordinates=[])
+    rate = {"rate_coefficient": coefficient, "reference_speed_mps": reference_speed_mps}
+    return SimpleNamespace(law="rate", spring=spring, damper=none, impact_speed_mps=15.0, **rate)
+
+
 def fit() -> Any:
     errors = [4e4, 2e4, NAN, 1e3, 3e3]
     starts = [0.03, 0.5, math.inf, 0.03001, 0.031, 0.03]

@@ -24,6 +24,7 @@ from plot_samples import (
     measured,
     model,
     outline,
+    rated,
     starts,
     unfinished,
 )
@@ -179,6 +180,28 @@ def test_law_names_the_axis_and_must_be_one() -> None:
     assert plots.plot_spring(model(SimpleNamespace(name="force"))).get_ylabel() == "spring force f [kN]"
     with pytest.raises(ValueError, match="law = force, stiffness: must be one for all models"):
         plots.plot_spring([model(), model("force")])
+
+
+def test_a_damper_over_crush_is_drawn_over_crush() -> None:
+    ax = plots.plot_damper(model("crush_damping"))
+    assert labels(ax) == ("crush [mm]", "damping c [kN s/m]")
+    np.testing.assert_allclose(line(ax, "damper")[0], [0.0, 15e3])
+    assert plots.plot_spring([model("force"), model("crush_damping")]).get_ylabel() == "spring force f [kN]"
+    with pytest.raises(ValueError, match="law = crush_damping, force: must be one for all models"):
+        plots.plot_damper([model("force"), model("crush_damping")])
+    with pytest.raises(ValueError, match="law = other: must be one for all models"):
+        plots.plot_damper(model("other"))
+
+
+def test_a_rate_is_drawn_as_the_factor_of_the_force() -> None:
+    spring, rate = plots.plot_model(rated())
+    assert labels(spring) == ("crush [mm]", "spring force f [kN]")
+    assert labels(rate) == ("velocity [m/s]", "rate factor 1 + r ln(1 + |v|/v_ref)")
+    x, y = line(rate, "damper")
+    assert x[-1] == 15.0
+    np.testing.assert_allclose(y, 1.0 + 0.1 * np.log1p(x / 2.0))
+    band = outline(plots.plot_damper(rated(), standard_error=[0.02]))
+    assert band[:, 1].max() == pytest.approx(1.0 + 0.12 * np.log1p(7.5))
 
 
 def test_curve_of_one_knot_is_a_level() -> None:

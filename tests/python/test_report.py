@@ -222,6 +222,33 @@ def test_a_directory_with_one_file(copy: Path, kept: Sequence[str], figures: Seq
     assert list(read(report(copy)).figures) == list(figures)
 
 
+def axes_of(figure: dict[str, Any]) -> tuple[str, str]:
+    return (figure["layout"]["xaxis"]["title"]["text"], figure["layout"]["yaxis"]["title"]["text"])
+
+
+def test_axes_of_spring_and_damper_follow_the_law(copy: Path) -> None:
+    model = json.loads((copy / "model.json").read_text())
+    del model["identification"]
+    model["spring"] = {"knots_m": [0, 0.5], "ordinates_n": [1e5, 2e5]}
+    model |= {"law": "crush_damping", "damper": {"knots_m": [0, 0.4], "ordinates_ns_per_m": [2e3, 1e3]}}
+    (copy / "model.json").write_text(json.dumps(model))
+    figures = read(report(copy)).figures
+    assert axes_of(figures["spring"]) == ("crush [mm]", "force f [kN]")
+    assert axes_of(figures["damper"]) == ("crush [mm]", "damping c [kN s/m]")
+    assert figures["damper"]["data"][0]["x"] == [0, 400]
+
+    del model["damper"]
+    model |= {"law": "rate", "rate": {"coefficient": 0.1, "reference_speed_mps": 2.0}}
+    (copy / "model.json").write_text(json.dumps(model))
+    figures = read(report(copy)).figures
+    assert "damper" not in figures
+    assert figures["rate"]["data"][0]["y"][-1] == pytest.approx(1 + 0.1 * math.log(11), rel=1e-6)
+    model["rate"]["reference_speed_mps"] = None
+    (copy / "model.json").write_text(json.dumps(model))
+    with pytest.raises(ValueError, match=r"model\.json: has law rate, must have rate\.coefficient and"):
+        report(copy)
+
+
 def test_title_without_a_record_is_the_name_of_the_directory(copy: Path) -> None:
     (copy / "case.lock.json").unlink()
     (copy / "comparison.json").unlink()

@@ -47,6 +47,47 @@ def test_every_model_moves_as_it_does_alone(car: crashsim.CrushModel) -> None:
         assert runs.olc_g[i] == pytest.approx(crashsim.metrics(alone).olc_g, rel=1e-4)
 
 
+def laws() -> dict[str, crashsim.CrushModel]:
+    """A model of each law that knows of a rate effect."""
+    spring = crashsim.PiecewiseLinear([0.0, 0.2, 0.5], [1e5, 2e5, 2.5e5])
+    damper = crashsim.PiecewiseLinear([0.0, 0.3], [4e3, 1e3])
+    common: dict[str, Any] = {"mass_kg": 1400.0, "spring": spring, "impact_speed_mps": 15.0}
+    return {
+        "crush_damping": crashsim.CrushModel(**common, law="crush_damping", damper=damper),
+        "rate": crashsim.CrushModel(**common, law="rate", rate_coefficient=0.08, reference_speed_mps=1.0),
+    }
+
+
+@pytest.mark.parametrize("law", ["crush_damping", "rate"])
+def test_models_of_every_law_move_as_they_do_alone(law: str) -> None:
+    car = laws()[law]
+    assert car.law == law
+    support.assert_value(car)
+    arrays: dict[str, Any] = {"mass_kg": [1e3, 1.3e3, 1.7e3]}
+    if law == "rate":
+        arrays = {"rate_coefficient": [0.0, 0.05, 0.1]}
+    models = crashsim.CrushModels(common=car, **arrays)
+    runs = crashsim.simulate_many(models, end_time_s=0.15, dt_s=1e-3)
+    for i in range(3):
+        alone = crashsim.simulate(models.model(i), end_time_s=0.15, dt_s=1e-3)
+        np.testing.assert_allclose(runs.velocity_mps[i], alone.velocity_mps, rtol=0, atol=RTOL * 15.0)
+        assert runs.max_crush_m[i] == pytest.approx(alone.max_crush_m, rel=RTOL)
+    assert len(set(runs.max_crush_m)) == 3
+
+
+def test_the_force_besides_the_springs_needs_crush_where_it_depends_on_it() -> None:
+    damped, rated = laws()["crush_damping"], laws()["rate"]
+    assert damped.damper_force(10.0, 0.15) == pytest.approx(2.5e4)
+    np.testing.assert_allclose(damped.damper_force([10.0, -4.0], [0.0, 0.3]), [4e4, -4e3])
+    np.testing.assert_allclose(damped.damper_force([10.0, -4.0], 0.3), [1e4, -4e3])
+    np.testing.assert_allclose(damped.damper_force(2.0, displacement_m=[0.0, 0.3]), [8e3, 2e3])
+    assert rated.damper_force(3.0, 0.2) == pytest.approx(2e5 * 0.08 * np.log(4.0))
+    with pytest.raises(crashsim.InvalidInput, match="with law rate the damper's force depends on the crush, too"):
+        rated.damper_force(3.0)
+    with pytest.raises(crashsim.InvalidInput, match="displacement_m: has 3 values and velocity_mps has 2"):
+        damped.damper_force([1.0, 2.0], [0.1, 0.2, 0.3])
+
+
 def test_results_are_views_of_the_engines_memory(car: crashsim.CrushModel) -> None:
     runs = crashsim.simulate_many(sweep(car), dt_s=1e-3)
     assert runs.accel_mps2.shape == (5, 201)

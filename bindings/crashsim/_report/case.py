@@ -26,12 +26,25 @@ class Ordinates:
 
 
 @dataclass(frozen=True)
+class Rate:
+    """The factor 1 + coefficient ln(1 + |v| / reference speed) of the spring's force."""
+
+    coefficient: float
+    reference_speed_mps: float
+    standard_error: float | None
+
+
+@dataclass(frozen=True)
 class Model:
-    """model.json: spring over crush [m], damper over velocity [m/s], and how they were identified."""
+    """model.json: spring over crush [m], damper over velocity [m/s], and how they were identified.
+
+    With law crush_damping the damper is over crush, with law rate there are a coefficient and a speed instead.
+    """
 
     law: str
-    spring: Ordinates
-    damper: Ordinates
+    spring: Ordinates | None
+    damper: Ordinates | None
+    rate: Rate | None
     identification: Node | None
 
 
@@ -132,15 +145,28 @@ def _read_model(path: Path) -> Model | None:
     model = read_json(path)
     fit = model.node("identification")
     errors = fit.node("standard_error") if fit else None
+    law = model.text("law") or "stiffness"
     spring = _ordinates(model, "spring", ("knots_m", "ordinates_n_per_m", "ordinates_n"), errors)
-    damper = _ordinates(model, "damper", ("knots_mps", "ordinates_ns_per_m"), errors)
-    return Model(model.text("law") or "stiffness", spring, damper, fit)
+    damper_knots = "knots_m" if law == "crush_damping" else "knots_mps"
+    damper = _ordinates(model, "damper", (damper_knots, "ordinates_ns_per_m"), errors)
+    if spring is None and damper is None:
+        raise fault(path, "has no spring and no damper")
+    return Model(law, spring, damper, _rate(model, errors) if law == "rate" else None, fit)
 
 
-def _ordinates(model: Node, name: str, keys: tuple[str, ...], errors: Node | None) -> Ordinates:
+def _rate(model: Node, errors: Node | None) -> Rate:
+    part = model.node("rate")
+    r, v_ref = (part.number(key) if part else None for key in ("coefficient", "reference_speed_mps"))
+    if r is None or v_ref is None or v_ref <= 0:
+        raise fault(model.path, "has law rate, must have rate.coefficient and rate.reference_speed_mps > 0")
+    error = errors.numbers("rate") if errors else np.array([])
+    return Rate(r, v_ref, float(error[0]) if len(error) == 1 else None)
+
+
+def _ordinates(model: Node, name: str, keys: tuple[str, ...], errors: Node | None) -> Ordinates | None:
     part = model.node(name)
     if part is None:
-        raise fault(model.path, f"has no {name}")
+        return None
     knots = part.numbers(keys[0])
     values = next((part.numbers(key) for key in keys[1:] if key in part.values), np.array([]))
     if len(knots) == 0 or len(knots) != len(values):

@@ -15,6 +15,7 @@ from .quantities import (
     KILONEWTON,
     KILONEWTON_PER_METRE,
     KILONEWTON_SECOND_PER_METRE,
+    METRE_PER_SECOND,
     MILLIMETRE,
     MILLISECOND,
     Unit,
@@ -29,7 +30,8 @@ DASHES = ("solid", "dash", "dashdot", "dot", "longdash")
 SERIES_COLORS = 6
 MOST_STACKED_POINTS = 400
 AT_BEST = 1.001
-TIME, CRUSH = Axis("time", "ms"), Axis("crush", "mm")
+TIME, CRUSH, VELOCITY = Axis("time", "ms"), Axis("crush", "mm"), Axis("velocity", "m/s")
+FASTEST_MPS = 20.0  # to which a rate is drawn
 
 
 def series_color(index: int) -> str:
@@ -108,20 +110,32 @@ def force_over_crush(case: CaseDirectory) -> Figure | None:
 
 
 def model_curves(model: Model) -> list[Figure]:
-    """k(x), or the spring's force f(x), and c(v)."""
+    """k(x), or the spring's force f(x), and c(v), c(x) or the rate's factor, by law."""
     at_bound = set(model.identification.texts("at_bound") if model.identification else [])
-    if model.law == "force":
-        title, spring_axis, spring_unit = "Spring: force f(x)", Axis("force f", "kN"), KILONEWTON
-    else:
+    if model.law == "stiffness":
         title, spring_axis = "Spring: stiffness k(x)", Axis("stiffness k", "kN/m")
         spring_unit = KILONEWTON_PER_METRE
+    else:
+        title, spring_axis, spring_unit = "Spring: force f(x)", Axis("force f", "kN"), KILONEWTON
     caption = "Linear between the knots. Bars: one standard error, where the identification gives it."
-    spring = _ordinate_curves(model.spring, "spring", "k", at_bound, MILLIMETRE, spring_unit)
-    damper = _ordinate_curves(model.damper, "damper", "c", at_bound, Unit(1.0, "m/s"), KILONEWTON_SECOND_PER_METRE)
-    return [
-        Figure("spring", title, caption, CRUSH, spring_axis, spring),
-        Figure("damper", "Damper: c(v)", caption, Axis("velocity", "m/s"), Axis("damping c", "kN s/m"), damper),
-    ]
+    figures = []
+    if model.spring:
+        spring = _ordinate_curves(model.spring, "spring", "k", at_bound, MILLIMETRE, spring_unit)
+        figures.append(Figure("spring", title, caption, CRUSH, spring_axis, spring))
+    if model.damper:
+        is_over_crush = model.law == "crush_damping"
+        title, axis = ("Damper: c(x)", CRUSH) if is_over_crush else ("Damper: c(v)", VELOCITY)
+        unit = MILLIMETRE if is_over_crush else METRE_PER_SECOND
+        damper = _ordinate_curves(model.damper, "damper", "c", at_bound, unit, KILONEWTON_SECOND_PER_METRE)
+        figures.append(Figure("damper", title, caption, axis, Axis("damping c", "kN s/m"), damper))
+    if model.rate:
+        caption = f"1 + r ln(1 + |v| / v_ref), r = {model.rate.coefficient:.4g}, "
+        caption += f"v_ref = {model.rate.reference_speed_mps:.4g} m/s: what the spring's force is multiplied by."
+        speed = np.linspace(0.0, FASTEST_MPS, 101)
+        factor = 1.0 + model.rate.coefficient * np.log1p(speed / model.rate.reference_speed_mps)
+        curves = [Curve("rate", speed, factor, "damper")]
+        figures.append(Figure("rate", "Rate", caption, VELOCITY, Axis("factor", ""), curves))
+    return figures
 
 
 def _ordinate_curves(

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from .case import CaseDirectory, Model, Ordinates
+from .case import CaseDirectory, Model, Ordinates, Rate
 from .files import Node
 from .markup import Content, Markup, tag
 from .quantities import (
@@ -166,13 +166,27 @@ def parameter_table(model: Model) -> Markup:
     fit = model.identification
     marks = dict.fromkeys(fit.texts("at_bound"), "at its bound") if fit else {}
     marks |= dict.fromkeys(fit.texts("untouched"), "no sample depends on it") if fit else {}
-    stiffness = KILONEWTON if model.law == "force" else KILONEWTON_PER_METRE
-    rows = [
-        *_parameter_rows(model.spring, "k", MILLIMETRE, stiffness, marks),
-        *_parameter_rows(model.damper, "c", METRE_PER_SECOND, KILONEWTON_SECOND_PER_METRE, marks),
-    ]
+    stiffness = KILONEWTON_PER_METRE if model.law == "stiffness" else KILONEWTON
+    damper_knots = MILLIMETRE if model.law == "crush_damping" else METRE_PER_SECOND
+    rows: list[Markup] = []
+    if model.spring:
+        rows += _parameter_rows(model.spring, "k", MILLIMETRE, stiffness, marks)
+    if model.damper:
+        rows += _parameter_rows(model.damper, "c", damper_knots, KILONEWTON_SECOND_PER_METRE, marks)
+    if model.rate:
+        rows.append(_rate_row(model.rate, marks))
     head: list[Content] = ["ordinate", "knot", "value", "standard error", "remark"]
     return table("Spring and damper", head, [*rows])
+
+
+def _rate_row(rate: Rate, marks: dict[str, str]) -> Markup:
+    return row(
+        "r",
+        f"v_ref {shown_number(rate.reference_speed_mps)} m/s",
+        shown_number(rate.coefficient),
+        MISSING if rate.standard_error is None else shown_number(rate.standard_error, 3),
+        marks.get("r", ""),
+    )
 
 
 def _parameter_rows(

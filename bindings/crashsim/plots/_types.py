@@ -66,7 +66,7 @@ class Curve(Protocol):
 
 
 class Model(Protocol):
-    """`CrushModel`; `law` is "stiffness" or "force", or an enumerator of that name."""
+    """`CrushModel`; `law` is "stiffness", "force", "crush_damping" or "rate", or an enumerator of that name."""
 
     @property
     def law(self) -> object: ...
@@ -74,6 +74,17 @@ class Model(Protocol):
     def spring(self) -> Curve: ...
     @property
     def damper(self) -> Curve: ...
+
+
+class RateModel(Model, Protocol):
+    """`CrushModel` of law "rate"."""
+
+    @property
+    def rate_coefficient(self) -> float: ...
+    @property
+    def reference_speed_mps(self) -> float: ...
+    @property
+    def impact_speed_mps(self) -> float: ...
 
 
 class Ordinate(Protocol):
