@@ -3,26 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <crashsim/error.hpp>
 #include <crashsim/export.hpp>
-#include <crashsim/model_io.hpp>
 #include <crashsim/simulate.hpp>
-#include <crashsim/units.hpp>
 
-#include "support/random.hpp"
-#include "support/source_dir.hpp"
+#include "support/exported_decks.hpp"
 
 namespace crashsim {
 namespace {
 
+using test::Curve;
+using test::curve_of;
+using test::Deck;
+using test::expect_force;
+using test::fields_of;
+using test::kPrinted;
+using test::kRecord;
+using test::kSystems;
+using test::lsdyna_curve;
+using test::number;
+using test::reach_of;
+using test::syn_a;
+using test::System;
+using test::to;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -31,116 +40,7 @@ using testing::Not;
 using testing::SizeIs;
 using testing::ThrowsMessage;
 
-constexpr double kPrinted = 1e-9;     // rounding: numbers have twelve digits
 constexpr double kShortField = 1e-3;  // rounding: what is left in ten columns
-
-const Record kRecord = {"0.0.0", "export", {"model.json"}, {}, {}};
-
-struct System {
-  const char* name;
-  double mass_kg, length_m, time_s;
-  [[nodiscard]] double force_n() const { return mass_kg * length_m / (time_s * time_s); }
-  [[nodiscard]] double speed_mps() const { return length_m / time_s; }
-};
-constexpr System kSystems[] = {
-    {"kg-m-s", 1, 1, 1}, {"t-mm-s", 1e3, 1e-3, 1}, {"kg-mm-ms", 1, 1e-3, 1e-3}, {"g-mm-ms", 1e-3, 1e-3, 1e-3}};
-
-/// Fields of a line by their widths.
-std::vector<std::string> fields_of(const std::string& line, const std::vector<std::size_t>& widths) {
-  std::vector<std::string> fields;
-  std::size_t at = 0;
-  for (const std::size_t width : widths) {
-    const std::string field = at < line.size() ? line.substr(at, width) : "";
-    const std::size_t first = field.find_first_not_of(' '), last = field.find_last_not_of(' ');
-    fields.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
-    at += width;
-  }
-  EXPECT_LE(line.size(), at) << line;
-  return fields;
-}
-
-double number(const std::string& field) {
-  const auto value = parse_number(field);
-  EXPECT_TRUE(value.has_value()) << "'" << field << "'";
-  return value.value_or(std::nan(""));
-}
-
-/// Data lines below each keyword, without comments; "*PART" may come twice.
-class Deck {
- public:
-  Deck(const std::string& text, char comment, char keyword) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with(comment)) continue;
-      if (line.starts_with(keyword))
-        blocks_.push_back({line, {}});
-      else if (!blocks_.empty())
-        blocks_.back().second.push_back(line);
-      else
-        ADD_FAILURE() << "before any keyword: " << line;
-    }
-  }
-  [[nodiscard]] std::vector<std::vector<std::string>> all(const std::string& keyword) const {
-    std::vector<std::vector<std::string>> found;
-    for (const auto& [name, lines] : blocks_)
-      if (name == keyword) found.push_back(lines);
-    return found;
-  }
-  [[nodiscard]] std::vector<std::string> one(const std::string& keyword) const {
-    const auto found = all(keyword);
-    EXPECT_THAT(found, SizeIs(1)) << keyword;
-    return found.empty() ? std::vector<std::string>{"", "", "", ""} : found.front();
-  }
-
- private:
-  std::vector<std::pair<std::string, std::vector<std::string>>> blocks_;
-};
-
-struct Curve {
-  std::vector<double> x, y;
-  [[nodiscard]] double at(double s) const {
-    const auto above = std::clamp(std::upper_bound(x.begin(), x.end(), s), x.begin() + 1, x.end() - 1) - x.begin();
-    const auto i = static_cast<std::size_t>(above);
-    return y[i - 1] + (y[i] - y[i - 1]) * (s - x[i - 1]) / (x[i] - x[i - 1]);
-  }
-};
-
-Curve curve_of(const std::vector<std::string>& lines, std::size_t first) {
-  Curve curve;
-  for (std::size_t i = first; i < lines.size(); ++i) {
-    const auto fields = fields_of(lines[i], {20, 20});
-    curve.x.push_back(number(fields[0]));
-    curve.y.push_back(number(fields[1]));
-  }
-  EXPECT_TRUE(std::is_sorted(curve.x.begin(), curve.x.end(), std::less_equal<>())) << "increasing strictly";
-  return curve;
-}
-
-/// The curve of LS-DYNA with this number.
-Curve lsdyna_curve(const Deck& deck, int id) {
-  for (const auto& lines : deck.all("*DEFINE_CURVE_TITLE")) {
-    const auto fields = fields_of(lines.at(1), {10, 10, 10, 10, 10, 10, 10, 10});
-    if (fields[0] == std::to_string(id)) return curve_of(lines, 2);
-  }
-  ADD_FAILURE() << "no curve " << id;
-  return {{0, 1}, {0, 0}};
-}
-
-/// Compares a curve of the deck with a force of the model at random places on both sides.
-template <class Force>
-void expect_force(const Curve& curve, double unit, double force_unit, double reach, const Force& force) {
-  test::Random random(11);
-  double peak = 0.0;
-  for (int i = 0; i <= 1000; ++i) peak = std::max(peak, std::abs(force(reach * i / 1000.0)));
-  for (int i = 0; i < 1000; ++i) {
-    const double s = random.between(-reach, reach);
-    ASSERT_NEAR(curve.at(s / unit) * force_unit, force(s), kCurveAccuracy * peak) << s;
-  }
-  EXPECT_NEAR(curve.at(0.0), 0.0, kPrinted * peak / force_unit);
-  EXPECT_NEAR(curve.x.front(), -curve.x.back(), kPrinted * curve.x.back()) << "both quadrants";
-}
-
-CrushModel syn_a() { return read_model(std::string(test::source_dir()) + "/data/syn-a/model.json"); }
 
 CrushModel random_model(test::Random& random) {
   CrushModel model;
@@ -160,12 +60,6 @@ CrushModel random_model(test::Random& random) {
     model.damper.ordinates.push_back(random.between(0, 9e4));
   }
   return model;
-}
-
-double reach_of(const PiecewiseLinear& law) { return 1.5 * (law.knots.size() == 1 ? 1.0 : law.knots.back()); }
-
-ExportOptions to(const std::string& target, const std::string& units = "kg-m-s", int id = 1) {
-  return {.to = target, .units = units, .first_id = id};
 }
 
 TEST(ExportToLsdyna, CurvesAreTheModelsForces) {
@@ -284,131 +178,6 @@ TEST(ExportToRadioss, CardsBelongTogether) {
   EXPECT_EQ(number(fields_of(property_of()[2], {20, 20, 20, 20, 20})[0]), 100.0) << "N/mm";
   EXPECT_THAT(export_model(model, to("radioss"), kRecord).notes,
               Contains(HasSubstr("the unloading stiffness 100000 is below the steepest loading")));
-}
-
-CrushModel rate_model() {
-  CrushModel model = syn_a();
-  model.damper = {};
-  model.law = CrushLaw::rate;
-  model.spring.ordinates = {0.0, 1e5, 2e5, 2e5, 3e5, 3e5, 4e5};
-  model.rate_coefficient = 0.12;
-  model.reference_speed_mps = 0.05;
-  return model;
-}
-
-/// Compares a curve with 1 + r ln(1 + |v| / v_ref) less `offset` at random velocities [m/s].
-void expect_rate(const Curve& curve, double unit, double offset) {
-  test::Random random(12);
-  const CrushModel model = rate_model();
-  for (int i = 0; i < 1000; ++i) {
-    const double v = random.between(-25.0, 25.0);
-    const double factor = 1.0 + model.rate_coefficient * std::log1p(std::abs(v) / model.reference_speed_mps);
-    ASSERT_NEAR(curve.at(v / unit), factor - offset, kCurveAccuracy * factor) << v;
-  }
-  EXPECT_NEAR(curve.at(0.0), 1.0 - offset, kPrinted);
-}
-
-TEST(ExportToLsdyna, ARateIsAFactorOverVelocity) {
-  for (const System& system : kSystems) {
-    const Deck deck(export_model(rate_model(), to("lsdyna", system.name, 7), kRecord).text, '$', '*');
-    EXPECT_EQ(fields_of(deck.one("*MAT_SPRING_NONLINEAR_ELASTIC")[0], {10, 10, 10}),
-              (std::vector<std::string>{"7", "7", "8"}));
-    expect_rate(lsdyna_curve(deck, 8), system.speed_mps(), 0.0);
-    expect_force(lsdyna_curve(deck, 7), system.length_m, system.force_n(), reach_of(rate_model().spring),
-                 [&](double x) { return spring_force(rate_model(), x); });
-    EXPECT_THAT(deck.all("*PART"), SizeIs(1)) << "no damper";
-  }
-  CrushModel model = rate_model();
-  model.unloading = {.kind = UnloadingKind::plastic, .restitution = 0.2};
-  EXPECT_THAT([&] { export_model(model, to("lsdyna"), kRecord); },
-              ThrowsMessage<InvalidInput>(HasSubstr("law rate with plastic unloading has no card there")));
-}
-
-TEST(ExportToRadioss, ARateIsAFunctionOfVelocityTimesTheForce) {
-  for (const System& system : kSystems) {
-    const Deck deck(export_model(rate_model(), to("radioss", system.name, 7), kRecord).text, '#', '/');
-    const auto property = deck.one("/PROP/TYPE4/7");
-    const auto functions = fields_of(property.at(3), {10, 10, 10, 10, 10, 10, 20, 20});
-    EXPECT_EQ(functions[0], "7");
-    EXPECT_EQ(functions[2], "8") << "g(d') is fct_ID21";
-    EXPECT_EQ(functions[4], "0");
-    EXPECT_EQ(number(fields_of(property.at(4), {20, 20, 20, 20})[1]), 1.0) << "E";
-    expect_rate(curve_of(deck.one("/FUNCT/8"), 1), system.speed_mps(), 1.0);
-  }
-  CrushModel model = rate_model();
-  model.unloading = {.kind = UnloadingKind::plastic, .restitution = 0.2};
-  EXPECT_THAT(export_model(model, to("radioss"), kRecord).notes,
-              Contains(HasSubstr("the rate multiplies the force in unloading, too")));
-}
-
-CrushModel crush_damping_model() {
-  CrushModel model = rate_model();
-  model.law = CrushLaw::crush_damping;
-  model.rate_coefficient = model.reference_speed_mps = kUnset;
-  model.damper = {{0.0, 0.2, 0.5}, {2e3, 9e3, 1e3}};
-  return model;
-}
-
-TEST(ExportToCards, DampingOverCrushIsRefusedUnlessItIsConstant) {
-  CrushModel model = crush_damping_model();
-  for (const char* target : {"lsdyna", "radioss"})
-    EXPECT_THAT([&] { export_model(model, to(target), kRecord); },
-                ThrowsMessage<InvalidInput>(testing::AllOf(
-                    HasSubstr(std::string("export to ") + target + ": law crush_damping has no card there"),
-                    HasSubstr("Export the curves as csv"))));
-  EXPECT_THROW(damper_curve(model), InvalidInput);
-  for (const PiecewiseLinear& damper : {PiecewiseLinear{{0.0}, {5e3}}, PiecewiseLinear{{0.0, 0.4}, {5e3, 5e3}}}) {
-    model.damper = damper;
-    const Deck deck(export_model(model, to("radioss"), kRecord).text, '#', '/');
-    expect_force(curve_of(deck.one("/FUNCT/2"), 1), 1.0, 1.0, 1.5, [](double v) { return 5e3 * v; });
-  }
-}
-
-/// Cells of a table by their columns, and its comments.
-struct Csv {
-  std::map<std::string, std::vector<std::string>> cells;
-  std::string comments;
-};
-Csv csv_of(const CrushModel& model) {
-  std::istringstream lines(export_model(model, to("csv"), kRecord).text);
-  Csv csv;
-  std::string line;
-  while (std::getline(lines, line) && line.starts_with("#")) csv.comments += line + "\n";
-  const auto split = [](const std::string& text) {
-    std::vector<std::string> cells(1);
-    for (const char c : text) c == ',' ? cells.emplace_back() : cells.back() += c;
-    return cells;
-  };
-  const std::vector<std::string> names = split(line);
-  while (std::getline(lines, line)) {
-    const auto cells = split(line);
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (!cells.at(i).empty()) csv.cells[names[i]].push_back(cells[i]);
-  }
-  return csv;
-}
-
-TEST(ExportToCsv, DampingGoesOverCrushByLaw) {
-  const CrushModel model = crush_damping_model();
-  Csv csv = csv_of(model);
-  EXPECT_THAT(csv.comments, HasSubstr("# force = spring_force_n(x) + damping_ns_per_m(x) v\n"));
-  EXPECT_THAT(csv.cells["damper_crush_m"], ElementsAre("0", "0.2", "0.5", "0.75"));
-  EXPECT_THAT(csv.cells["damping_ns_per_m"], ElementsAre("2000", "9000", "1000", "1000"));
-  EXPECT_FALSE(csv.cells.contains("velocity_mps"));
-  ASSERT_FALSE(csv.cells["crush_m"].empty());
-  for (std::size_t i = 1; i < csv.cells["crush_m"].size(); ++i)
-    EXPECT_EQ(number(csv.cells["spring_force_n"][i]), spring_force(model, number(csv.cells["crush_m"][i])));
-}
-
-TEST(ExportToCsv, ARateIsAFactor) {
-  Csv csv = csv_of(rate_model());
-  EXPECT_THAT(csv.comments, HasSubstr("# rate_coefficient = 0.12\n# reference_speed_mps = 0.05\n"));
-  Curve factor;
-  for (const std::string& cell : csv.cells["velocity_mps"]) factor.x.insert(factor.x.end(), number(cell));
-  for (const std::string& cell : csv.cells["rate_factor"]) factor.y.push_back(number(cell));
-  ASSERT_EQ(factor.x.size(), factor.y.size());
-  for (const double v : {0.01, 0.3, 2.0, 17.0})
-    EXPECT_NEAR(factor.at(v), 1.0 + 0.12 * std::log1p(v / 0.05), kCurveAccuracy);
 }
 
 TEST(ExportToCards, WhatCannotBeSaidIsNoted) {
