@@ -70,11 +70,11 @@ def rated(coefficient: float = 0.1, reference_speed_mps: float = 2.0) -> Any:
 
 
 def fit() -> Any:
-    errors = [4e4, 2e4, NAN, 1e3, 3e3]
+    errors = {"spring": [4e4, 2e4, NAN], "damper": [1e3, 3e3]}
     starts = [0.03, 0.5, math.inf, 0.03001, 0.031, 0.03]
     return SimpleNamespace(
         model=model(),
-        ordinates=[SimpleNamespace(standard_error=error) for error in errors],
+        ordinates=[SimpleNamespace(part=part, standard_error=error) for part in errors for error in errors[part]],
         starts=[SimpleNamespace(error=error) for error in starts],
     )
 

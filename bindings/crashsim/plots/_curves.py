@@ -173,10 +173,13 @@ def _standard_error(thing: ModelOrFit, given: ArrayLike | None, models: int, *, 
         return vector(given, "standard_error")
     if not hasattr(thing, "ordinates"):
         return None
-    part = "spring" if of_spring else "damper"
-    errors = [ordinate.standard_error for ordinate in cast(Fit, thing).ordinates if ordinate.part == part]
-    curve = _model(thing).spring if of_spring else _model(thing).damper
-    if len(errors) != len(np.asarray(curve.knots)):
+    model = _model(thing)
+    part, expected = "spring", len(np.asarray(model.spring.knots))
+    if not of_spring:
+        is_rate = option_name(model.law) == "rate"
+        part, expected = ("rate", 1) if is_rate else ("damper", len(np.asarray(model.damper.knots)))
+    errors = [number.standard_error for number in cast(Fit, thing).ordinates if option_name(number.part) == part]
+    if len(errors) != expected:
         return None  # a curve that is a table has more knots than were fitted
     return np.array(errors, dtype=np.float64)
 

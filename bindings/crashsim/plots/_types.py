@@ -91,6 +91,8 @@ class Ordinate(Protocol):
     """`OrdinateReport`."""
 
     @property
+    def part(self) -> str: ...
+    @property
     def standard_error(self) -> float | None: ...
 
 
