@@ -7,6 +7,7 @@
 
 #include "bindings.hpp"
 #include "long_call.hpp"
+#include "pulse_argument.hpp"
 #include "value_class.hpp"
 
 namespace crashsim::python {
@@ -86,14 +87,14 @@ void bind_identification(py::module_& module) {
       .result();
 }
 
+}  // namespace
+
 std::vector<Pulse> pulses_of(const py::object& given) {
   if (py::isinstance<Pulse>(given)) return {given.cast<Pulse>()};
   if (py::isinstance<py::str>(given) || !py::isinstance<py::iterable>(given))
     throw py::type_error("pulses: must be a Pulse or a list of them, is " + std::string(py::str(py::type::of(given))));
   return from_python<std::vector<Pulse>>(given, "pulses");
 }
-
-}  // namespace
 
 void bind_identify(py::module_& module) {
   bind_reports(module);

@@ -12,6 +12,7 @@ void bind_pulse(py::module_& module);
 void bind_crush(py::module_& module);
 void bind_simulate_many(py::module_& module);
 void bind_identify(py::module_& module);
+void bind_select(py::module_& module);
 void bind_judgement(py::module_& module);
 void bind_rating(py::module_& module);
 void bind_wall(py::module_& module);

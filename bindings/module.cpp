@@ -40,6 +40,7 @@ PYBIND11_MODULE(_core, module) {
   bind_crush(module);
   bind_simulate_many(module);
   bind_identify(module);
+  bind_select(module);
   bind_judgement(module);
   bind_rating(module);
   bind_wall(module);

@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSameByAicc = 2.0;    // [Burnham2002] section 2.6
+constexpr double kSameScore = 0.1;     // of two tests, relative
 constexpr double kLeastError = 1e-12;  // E below which a fit is perfect
 constexpr std::size_t kMostNamed = 4;
 
@@ -95,7 +96,9 @@ void set_difference(const SelectionRow& best, SelectionRow& row) {
     squares += deviation * deviation;
   }
   row.difference_deviation = std::sqrt(squares / (count * (count - 1.0)));
-  row.as_good_as_best = row.difference_to_best <= row.difference_deviation;
+  // The deviation of two differences rests on one number: what is close then is what differs by little.
+  const double close = row.left_out.size() > 2 ? row.difference_deviation : kSameScore * best.prediction_error;
+  row.as_good_as_best = row.difference_to_best <= close;
 }
 
 /// What a row is sorted by: those without a model last, then as the criterion says, ties by the number of parameters.
@@ -133,9 +136,9 @@ std::string why_by_prediction(const SelectionRow& chosen, const Selection& selec
       "{}: tests left out are predicted with maximum crush within {:.1f} % and t_m within {:.1f} % (mean score {:.3f})",
       chosen.name, 100.0 * chosen.largest_crush_error, 100.0 * chosen.largest_t_m_error, chosen.prediction_error);
   if (&chosen != selection.rows.data())
-    why += fmt::format("; fewer parameters ({}) than the best, {} ({}, score {:.3f}), within one standard error",
-                       chosen.parameters, selection.rows.front().name, selection.rows.front().parameters,
-                       selection.rows.front().prediction_error);
+    why += fmt::format("; fewer parameters ({}) than the best, {} ({}, score {:.3f}), within {}", chosen.parameters,
+                       selection.rows.front().name, selection.rows.front().parameters,
+                       selection.rows.front().prediction_error, selection.tests > 2 ? "one standard error" : "a tenth");
   why += alternatives_to(chosen, selection.rows, "prediction");
   if (selection.tests == 2)
     why += "; with two tests each is predicted from the other alone: a third test would say more";

@@ -53,7 +53,7 @@ struct SelectionRow {
   double largest_t_m_error = kUnset;     ///< Of the tests left out, absolute and relative.
   double difference_to_best = kUnset;    ///< Of prediction_error, to the least.
   double difference_deviation = kUnset;  ///< Standard error of this difference, from that of each test.
-  bool as_good_as_best = false;          ///< Within one standard error; by AICc: within 2.
+  bool as_good_as_best = false;          ///< Within one standard error, a tenth or 2 in AICc.
   bool recommended = false;
 };
 inline constexpr std::array<NamedNumber<SelectionRow>, 8> kSelectionNumbers = {{
@@ -98,8 +98,8 @@ struct Selection {
 
 /// Fits every candidate to all pulses, and to all but each in turn, whose motion is then predicted. Of several tests
 /// the recommendation is the candidate with the fewest parameters among those whose prediction error is within one
-/// standard error of the least (the rule of [Breiman1984], by the tests' paired differences); of one test the least
-/// AICc, [Burnham2002] section 2.4:
+/// standard error of the least (the rule of [Breiman1984], by the tests' paired differences; of two tests, whose
+/// deviation says nothing, within a tenth of the least); of one test the least AICc, [Burnham2002] section 2.4:
 ///     AICc = 2 n ln E + 2 K + 2 K (K + 1) / (n - K - 1),   K = parameters + 1,   E of loss l2: n ln E
 /// n is the effective number of observations: three channels integrated from one accelerometer, with correlated
 /// residuals, are not 3 N data. n = sum over tests of N / (1 + 2 sum of autocorrelations) of the acceleration residuals

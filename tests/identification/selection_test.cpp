@@ -24,6 +24,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr double kRounding = 1e-12;  // relative, of a few operations on doubles
+constexpr double kEngines = 1e-6;    // solver: between CVODE at its default tolerance and the Taylor kernel
 
 /// A front whose force and damping both grow with crush: law `crush_damping`, exactly.
 CrushModel crush_damped_car() {
@@ -99,7 +100,8 @@ TEST(Candidates, AreRefusedWithAReason) {
     expect_refused([&] { select_model(three_tests(), options); }, reason);
   };
   refuse([](SelectOptions& o) { o.laws = {"stiffnes"}; }, "SelectOptions.laws");
-  refuse([](SelectOptions& o) { o.laws = {}; }, "SelectOptions.laws: none given: name at least one of stiffness, force");
+  refuse([](SelectOptions& o) { o.laws = {}; },
+         "SelectOptions.laws: none given: name at least one of stiffness, force");
   refuse([](SelectOptions& o) { o.damper_knots = {2.5}; },
          "SelectOptions.damper_knots = 2.5: must be whole numbers of 0..100");
   refuse([](SelectOptions& o) { o.placements = {"given"}; }, "use uniform, quantile or free");
@@ -132,8 +134,8 @@ TEST(Selection, PredictsFromTheOtherTestsAlone) {
   how.impact_speed_mps = all[1].impact_speed_mps;
   how.to_max_crush = true;
   const CrushResponse run = simulate(model, how);
-  EXPECT_NEAR(row.left_out[1].max_crush_error, run.max_crush_m / all[1].max_crush_m - 1.0, kRounding);
-  EXPECT_NEAR(row.left_out[1].t_m_error, run.t_m_s / all[1].t_m_s - 1.0, kRounding);
+  EXPECT_NEAR(row.left_out[1].max_crush_error, run.max_crush_m / all[1].max_crush_m - 1.0, kEngines);
+  EXPECT_NEAR(row.left_out[1].t_m_error, run.t_m_s / all[1].t_m_s - 1.0, kEngines);
   EXPECT_NEAR(row.left_out[1].error, fit_error(model, all[1]).total, kRounding);
 }
 

@@ -54,8 +54,8 @@ inline double zone_force(const SyntheticCar& car, const CrushZone& zone, double 
   return force * (1.0 + car.rate_strength * std::pow(rate, car.rate_power)) + zone.viscosity_ns_per_m * w;
 }
 
-/// Deceleration of the compartment, sampled every `dt_s` until it has rebounded; a barrier test at this speed.
-inline Pulse synthetic_pulse(const SyntheticCar& car, double speed_mps, double dt_s = 1e-4) {
+/// Deceleration of the compartment, sampled every `dt_s` until it has rebounded and filtered; a barrier test.
+inline Pulse synthetic_pulse(const SyntheticCar& car, double speed_mps, double dt_s = 1e-4, double cfc = 60.0) {
   constexpr int kSubsteps = 10;
   constexpr double kEnd_s = 0.25;
   const std::size_t n = car.masses_kg.size();
@@ -96,7 +96,7 @@ inline Pulse synthetic_pulse(const SyntheticCar& car, double speed_mps, double d
     }
     if (v.back() < -0.1 * speed_mps) break;
   }
-  return make_pulse(time, accel, speed_mps, car.mass_kg(), 60.0);
+  return make_pulse(time, accel, speed_mps, car.mass_kg(), cfc);
 }
 
 /// A car of three zones, soft to stiff, each with some scatter.

@@ -23,6 +23,7 @@ TOPICS = {
         "identify equation_error fit_error Identification Verdict FitError OrdinateReport TestReport "
         "ParameterReport StartReport"
     ),
+    "Choice of a model": "select_model Selection SelectionRow LeftOutTest",
     "Heave and pitch": (
         "simulate_pitch identify_pitch read_vehicle write_vehicle write_pitch "
         "read_forcing forcing_of HeavePitchModel Mode "
