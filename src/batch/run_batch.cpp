@@ -45,7 +45,7 @@ std::string work_on(const BatchFolder& folder, std::size_t index) {
   const BatchCase& one = folder.cases()[index];
   try {
     const std::optional<BatchRow> before = folder.row_of(index);
-    if (before && is_batch_case_done(one, folder.path(), *before)) return std::string(1, kUnchanged);
+    if (before && is_batch_case_done(one, folder.path(), *before)) return {kUnchanged};
     return to_json(run_batch_case(one, folder.path()));
   } catch (const std::bad_alloc&) {
     return to_json(failed_row(one.name, kOutOfMemory, kMachineFailed, "out of memory: give it more, or ask for less"));
