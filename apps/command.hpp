@@ -122,6 +122,7 @@ std::unique_ptr<Command> make_identify_pitch(CLI::App& app);
 std::unique_ptr<Command> make_identify_vertical(CLI::App& app);
 std::unique_ptr<Command> make_wall(CLI::App& app);
 std::unique_ptr<Command> make_simulate(CLI::App& app);
+std::unique_ptr<Command> make_predict(CLI::App& app);
 std::unique_ptr<Command> make_pitch(CLI::App& app);
 std::unique_ptr<Command> make_compare(CLI::App& app);
 std::unique_ptr<Command> make_run(CLI::App& app);

@@ -24,12 +24,15 @@ class IdentifyCommand : public Command {
         ->required()
         ->type_name("PULSE");
     options_.flags.add_to(app(), "Options");
+    errors_.flags.add_to(app(), "Uncertainty", {"resample", "replicates", "level", "profile", "block"});
     add_output("FILE", "model.json to write, - for standard output");
     add_reporting();
   }
 
   int run() override {
-    resolve(options_);
+    resolve(options_, errors_);
+    errors_.values.seed = options_.values.seed;
+    errors_.values.jobs = options_.values.jobs;
     check_output(files_);
     std::vector<Pulse> pulses;
     std::vector<std::string> inputs;
@@ -42,18 +45,46 @@ class IdentifyCommand : public Command {
     check_output(inputs);
     const Identification fit = identify_watched(pulses);
     const Summary summary = summarize(fit);
+    Uncertainty errors;
     if (!fit.ordinates.empty()) {
-      const Record made_by = record(files_, entries_of(options_.values, ""), inputs);
-      write(format_model(fit.model, &fit, &made_by));
+      if (fit.usable()) errors = judge_watched(pulses, fit);
+      const Record made_by = record(files_, all_entries(), inputs);
+      write(format_model(fit.model, &fit, &made_by, fit.usable() ? &errors : nullptr));
     }
     report(fit, summary);
-    if (fit.outcome == IdentifyOutcome::interrupted) return kInterruptedExit;
+    report(errors);
+    if (fit.outcome == IdentifyOutcome::interrupted || errors.outcome == UncertaintyOutcome::interrupted)
+      return kInterruptedExit;
     return fit.usable() ? kDone : kNumbersFailed;
   }
 
  private:
   Identification identify_watched(const std::vector<Pulse>& pulses) const {
     return watch_starts(quiet(), [&](const Progress& progress) { return identify(pulses, options_.values, progress); });
+  }
+
+  Uncertainty judge_watched(const std::vector<Pulse>& pulses, const Identification& fit) const {
+    return watch("replicates", quiet(), [&](const Progress& progress) {
+      return uncertainty(pulses, options_.values, fit, errors_.values, progress);
+    });
+  }
+
+  /// Entries of both tables; seed and jobs are the fit's.
+  std::vector<ConfigEntry> all_entries() const {
+    std::vector<ConfigEntry> entries = entries_of(options_.values, "");
+    for (ConfigEntry& entry : entries_of(errors_.values, ""))
+      if (entry.key != "seed" && entry.key != "jobs") entries.push_back(std::move(entry));
+    return entries;
+  }
+
+  /// What was asked beyond the standard errors.
+  void report(const Uncertainty& errors) const {
+    if (!errors_.values.profile || errors.ordinates.empty()) return;
+    say(fmt::format("  {:<4} {:>14} {:>14}", "", "profile from", "to"));
+    for (const OrdinateUncertainty& o : errors.ordinates)
+      say(fmt::format("  {:<4} {:>14.6g} {:>14.6g} {}{}", o.name, o.profile_low, o.profile_high,
+                      o.profile_low_open ? " open below" : "", o.profile_high_open ? " open above" : ""));
+    say("  " + errors.message);
   }
 
   void report(const Identification& fit, const Summary& summary) const {
@@ -93,6 +124,7 @@ class IdentifyCommand : public Command {
 
   std::vector<std::string> files_;
   Bound<IdentifyOptions> options_;
+  Bound<UncertaintyOptions> errors_;
 };
 
 }  // namespace

@@ -13,7 +13,9 @@
 
 #include "fit_json.hpp"
 #include "json.hpp"
+#include "json_object.hpp"
 #include "record_json.hpp"
+#include "uncertainty_json.hpp"
 
 namespace crashsim {
 namespace {
@@ -41,7 +43,8 @@ constexpr Key kKeys[] = {
     {"", "damper", "", "c(|v|), law crush_damping: c(|x|); none with law rate", "", ""},
     {"", "rate", "", "law rate: the factor 1 + r ln(1 + |v| / v_ref) of the spring's force", "", ""},
     {"", "unloading", "", "behaviour after maximum crush", "", ""},
-    {"", "identification", "", "written by identify, not read", "", ""},
+    {"", "identification", "", "written by identify; predict reads its tests and verdict", "", ""},
+    {"", "uncertainty", "", "written by identify: errors and replicates, read by predict", "", ""},
     {"", "record", "", "written by crashsim: what made the file", "", ""},
     {"spring", "knots_m", "m", "crush at the knots: first 0, increasing", "", ""},
     {"spring", "ordinates_n_per_m", "N/m", "stiffness at the knots (law stiffness)", ">= 0", ""},
@@ -71,47 +74,15 @@ std::string_view spring_ordinates(CrushLaw law) {
 
 std::string_view damper_knots(CrushLaw law) { return law == CrushLaw::crush_damping ? kCrushKnots : kSpeedKnots; }
 
-/// One JSON object of the file, for messages that say where.
-class Object {
- public:
-  Object(const Json& json, std::string what) : json_(json), what_(std::move(what)) {
-    if (!json.is_object()) throw InvalidInput(fmt::format("{}: must be a JSON object {{..}}", what_));
-  }
-
-  void allow_only(std::vector<std::string_view> known) const {
-    for (const auto& [key, value] : json_.items())
-      if (std::find(known.begin(), known.end(), key) == known.end()) detail::throw_unknown_name(what_, key, known);
-  }
-  [[nodiscard]] bool has(std::string_view key) const { return json_.contains(key) && !json_[key].is_null(); }
-  [[nodiscard]] const Json& get(std::string_view key) const {
-    if (!has(key)) throw InvalidInput(fmt::format("{}: has no '{}'", what_, key));
-    return json_[key];
-  }
-  [[nodiscard]] OptionValue option(std::string_view key) const { return option_from_json(get(key), name(key)); }
-  [[nodiscard]] double number(std::string_view key) const { return detail::to_number(option(key), "", name(key)); }
-  [[nodiscard]] std::vector<double> numbers(std::string_view key) const {
-    return detail::to_numbers(option(key), "", name(key));
-  }
-  template <class E>
-  void read_choice(std::string_view key, E& value) const {
-    if (has(key)) value = static_cast<E>(detail::to_choice(option(key), enum_names<E>, enum_aliases<E>, name(key)));
-  }
-  [[nodiscard]] std::string name(std::string_view key) const { return fmt::format("{}: {}", what_, key); }
-
- private:
-  const Json& json_;
-  std::string what_;
-};
-
-PiecewiseLinear read_curve(const Object& model, std::string_view name, std::string_view knots,
+PiecewiseLinear read_curve(const JsonObject& model, std::string_view name, std::string_view knots,
                            std::string_view ordinates) {
   if (!model.has(name)) return {};
-  const Object curve(model.get(name), model.name(name));
+  const JsonObject curve(model.get(name), model.name(name));
   curve.allow_only({knots, ordinates});
   return {curve.numbers(knots), curve.numbers(ordinates)};
 }
 
-void check_format(const Object& file, const std::string& path) {
+void check_format(const JsonObject& file, const std::string& path) {
   if (file.get("format") != kFormat)
     throw InvalidInput(fmt::format("{}: format = {}: must be \"{}\"", path, file.get("format").dump(), kFormat));
   if (file.get("version") != kVersionOfFormat)
@@ -119,7 +90,7 @@ void check_format(const Object& file, const std::string& path) {
                                    kVersionOfFormat));
 }
 
-Unloading read_unloading(const Object& json) {
+Unloading read_unloading(const JsonObject& json) {
   json.allow_only(keys_of("unloading"));
   Unloading unloading;
   json.read_choice("kind", unloading.kind);
@@ -129,13 +100,13 @@ Unloading read_unloading(const Object& json) {
   return unloading;
 }
 
-void read_rate(const Object& json, CrushModel& model) {
+void read_rate(const JsonObject& json, CrushModel& model) {
   json.allow_only(keys_of("rate"));
   model.rate_coefficient = json.number(kRateCoefficient);
   model.reference_speed_mps = json.number(kReferenceSpeed);
 }
 
-CrushModel read(const Object& file) {
+CrushModel read(const JsonObject& file) {
   file.allow_only(keys_of(""));
   CrushModel model;
   model.mass_kg = file.number("mass_kg");
@@ -144,8 +115,9 @@ CrushModel read(const Object& file) {
   file.read_choice("extrapolation", model.extrapolation);
   model.spring = read_curve(file, "spring", kCrushKnots, spring_ordinates(model.law));
   model.damper = read_curve(file, "damper", damper_knots(model.law), kDamperOrdinates);
-  if (file.has("rate")) read_rate(Object(file.get("rate"), file.name("rate")), model);
-  if (file.has("unloading")) model.unloading = read_unloading(Object(file.get("unloading"), file.name("unloading")));
+  if (file.has("rate")) read_rate(JsonObject(file.get("rate"), file.name("rate")), model);
+  if (file.has("unloading"))
+    model.unloading = read_unloading(JsonObject(file.get("unloading"), file.name("unloading")));
   return model;
 }
 
@@ -246,7 +218,7 @@ std::vector<FileKey> model_keys() {
 
 CrushModel read_model(const std::string& path) {
   const Json json = parse_json(read_file(path), path);
-  const Object file(json, path);
+  const JsonObject file(json, path);
   check_format(file, path);
   const CrushModel model = read(file);
   try {
@@ -257,7 +229,16 @@ CrushModel read_model(const std::string& path) {
   return model;
 }
 
-std::string format_model(const CrushModel& model, const Identification* identification, const Record* record) {
+PredictionBasis read_prediction_basis(const std::string& path) {
+  PredictionBasis basis;
+  basis.model = read_model(path);
+  const Json json = parse_json(read_file(path), path);
+  read_basis(JsonObject(json, path), basis);
+  return basis;
+}
+
+std::string format_model(const CrushModel& model, const Identification* identification, const Record* record,
+                         const Uncertainty* uncertainty) {
   validate(model);
   Json json = {{"format", kFormat}, {"version", kVersionOfFormat}, {"mass_kg", model.mass_kg}};
   if (!std::isnan(model.impact_speed_mps)) json["impact_speed_mps"] = model.impact_speed_mps;
@@ -270,6 +251,7 @@ std::string format_model(const CrushModel& model, const Identification* identifi
                     {std::string(kReferenceSpeed), model.reference_speed_mps}};
   json["unloading"] = unloading_json(model.unloading);
   if (identification != nullptr) json["identification"] = identification_json(*identification);
+  if (uncertainty != nullptr) json["uncertainty"] = uncertainty_json(*uncertainty);
   if (record != nullptr) json["record"] = record_json(*record);
   return format_json(json);
 }

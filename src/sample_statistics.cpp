@@ -19,14 +19,6 @@ bool varies(std::span<const double> values) {
   return *largest - *least > kNoise * std::max(std::fabs(*least), std::fabs(*largest));
 }
 
-/// Quantile of ordered values, linear between them.
-double quantile_of(const std::vector<double>& ordered, double p) {
-  const double place = p * static_cast<double>(ordered.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, ordered.size() - 1);
-  return ordered[below] + (place - static_cast<double>(below)) * (ordered[above] - ordered[below]);
-}
-
 /// Index 1 - a / v or a / v of means a and v over groups, with its standard error by the spread of their influence.
 SobolIndex index_of(const std::vector<double>& a, const std::vector<double>& v, bool is_rest) {
   const auto count = static_cast<double>(a.size());
@@ -37,6 +29,13 @@ SobolIndex index_of(const std::vector<double>& a, const std::vector<double>& v, 
 }
 
 }  // namespace
+
+double quantile_of(const std::vector<double>& ordered, double p) {
+  const double place = p * static_cast<double>(ordered.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, ordered.size() - 1);
+  return ordered[below] + (place - static_cast<double>(below)) * (ordered[above] - ordered[below]);
+}
 
 SampleStatistics statistics_of(std::span<const double> values) {
   SampleStatistics out;

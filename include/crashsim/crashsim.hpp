@@ -37,6 +37,7 @@
 #include <crashsim/options.hpp>
 #include <crashsim/outputs.hpp>
 #include <crashsim/piecewise_linear.hpp>
+#include <crashsim/predict.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/rating.hpp>
 #include <crashsim/record.hpp>
@@ -60,6 +61,7 @@
 #include <crashsim/time_series.hpp>
 #include <crashsim/trace.hpp>
 #include <crashsim/trace_io.hpp>
+#include <crashsim/uncertainty.hpp>
 #include <crashsim/units.hpp>
 #include <crashsim/vehicle_io.hpp>
 #include <crashsim/version.hpp>

@@ -7,7 +7,9 @@
 #include <crashsim/crush_model.hpp>
 #include <crashsim/identify.hpp>
 #include <crashsim/option_docs.hpp>
+#include <crashsim/predict.hpp>
 #include <crashsim/record.hpp>
+#include <crashsim/uncertainty.hpp>
 
 namespace crashsim {
 
@@ -21,8 +23,14 @@ std::vector<FileKey> model_keys();
 ///         or a bad value.
 CrushModel read_model(const std::string& path);
 
-/// The text of model.json. `identification` and `record`, where given, become its members of these names.
+/// Reads a model with what predictions rest on, as far as it is there: the tests it was identified from, the verdict,
+/// and the replicates of the fit.
+/// @throws InvalidInput as read_model(), and when these do not fit the model.
+PredictionBasis read_prediction_basis(const std::string& path);
+
+/// The text of model.json. `identification`, `record` and `uncertainty`, where given, become its members of these
+/// names. Replicates have nine digits.
 std::string format_model(const CrushModel& model, const Identification* identification = nullptr,
-                         const Record* record = nullptr);
+                         const Record* record = nullptr, const Uncertainty* uncertainty = nullptr);
 
 }  // namespace crashsim

@@ -7,6 +7,7 @@
 
 #include <crashsim/comparison.hpp>
 #include <crashsim/load_cell_wall.hpp>
+#include <crashsim/predict.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
 #include <crashsim/simulate.hpp>
@@ -30,6 +31,12 @@ std::string format_pitch(const PitchResponse& response, const Record& record);
 
 /// coupled.csv: the columns of kCoupledColumns; outcome and notes as comments.
 std::string format_coupled(const CoupledResponse& response, const Record& record);
+
+/// prediction.csv: `impact_speed_mps,outcome,extrapolated,without_max_crush`, then each metric with its band,
+/// `t_m_s,t_m_s_low,t_m_s_high` and so on; message and reasons as comments.
+std::string format_prediction(const SpeedPrediction& prediction, const Record& record);
+/// The same as JSON, a row a speed.
+std::string prediction_json(const SpeedPrediction& prediction);
 
 /// rating.json, or comparison.json when there are several: each under its name.
 std::string format_comparisons(const std::vector<NamedComparison>& comparisons, const Record& record);

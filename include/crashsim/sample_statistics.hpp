@@ -18,6 +18,9 @@ struct SampleStatistics {
   double min = kUnset, max = kUnset;                ///< Smallest and largest.
   std::size_t min_at = 0, max_at = 0;               ///< Where these first are.
 };
+/// Quantile p, 0..1, of ordered values, at least one, linear between them.
+double quantile_of(const std::vector<double>& ordered, double p);
+
 /// Statistics of values; those that are NaN are left out.
 SampleStatistics statistics_of(std::span<const double> values);
 

@@ -57,9 +57,9 @@ Eigen::MatrixXd without_nuisance(const Eigen::MatrixXd& rows, const Eigen::Matri
   return rows - basis * (basis.transpose() * rows);
 }
 
-Uncertainty uncertainty_of(const ColumnAnalysis& analysis, double residual_variance) {
+ParameterErrors errors_of(const ColumnAnalysis& analysis, double residual_variance) {
   const std::size_t n = analysis.parameters;
-  Uncertainty out{std::vector<double>(n, kUnset), {n, std::vector<double>(n, kUnset)}};
+  ParameterErrors out{std::vector<double>(n, kUnset), {n, std::vector<double>(n, kUnset)}};
   const Eigen::MatrixXd& covariance = analysis.covariance;
   for (Index i = 0; i < covariance.rows(); ++i) {
     const std::size_t row = analysis.determined[static_cast<std::size_t>(i)];

@@ -34,12 +34,12 @@ ColumnAnalysis analyse_columns(const Eigen::MatrixXd& jacobian, const Eigen::Vec
 Eigen::MatrixXd without_nuisance(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& nuisance);
 
 /// Standard errors and correlations of all parameters; unset for those that are not determined.
-struct Uncertainty {
+struct ParameterErrors {
   std::vector<double> standard_errors;
   std::vector<std::vector<double>> correlation;
 };
 
 /// @param residual_variance of the scaled residuals that the rows belong to.
-Uncertainty uncertainty_of(const ColumnAnalysis& analysis, double residual_variance);
+ParameterErrors errors_of(const ColumnAnalysis& analysis, double residual_variance);
 
 }  // namespace crashsim

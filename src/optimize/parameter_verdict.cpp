@@ -89,15 +89,15 @@ ParameterVerdict judge_parameters(std::span<const SoughtRange> parameters, std::
   for (std::size_t i = 0; i < parameters.size(); ++i) sizes[static_cast<Index>(i)] = parameters[i].slope_at(values[i]);
   const std::vector<bool> touched = touched_columns(jacobian, sizes);
   const ColumnAnalysis analysis = analyse_columns(jacobian, sizes);
-  Uncertainty uncertainty = uncertainty_of(analysis, residual_variance);
+  ParameterErrors errors = errors_of(analysis, residual_variance);
   ParameterVerdict out;
   std::vector<std::string> vague;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const double error = uncertainty.standard_errors[i];
+    const double error = errors.standard_errors[i];
     out.parameters.push_back(describe(parameters[i], values[i], touched[i], error));
     if (error > kNarrow * sizes[static_cast<Index>(i)]) vague.push_back(out.parameters.back().name);
   }
-  out.correlation = std::move(uncertainty.correlation);
+  out.correlation = std::move(errors.correlation);
   if (analysis.determined.empty()) {
     out.verdict.message = "no sample depends on any parameter";
     return out;

@@ -130,12 +130,11 @@ Identifiability judge_identifiability(const FitStructure& structure, std::span<c
   stacked << jacobian, roughness;
   const ColumnAnalysis analysis = analyse_columns(stacked, upper);
   const std::vector<std::size_t>& determined = analysis.determined;
-  Uncertainty uncertainty = uncertainty_of(analysis, residual_variance);
+  ParameterErrors errors = errors_of(analysis, residual_variance);
   Identifiability out;
   out.ordinates = describe(structure, parameters, upper, touched);
-  for (std::size_t i = 0; i < out.ordinates.size(); ++i)
-    out.ordinates[i].standard_error = uncertainty.standard_errors[i];
-  out.correlation = std::move(uncertainty.correlation);
+  for (std::size_t i = 0; i < out.ordinates.size(); ++i) out.ordinates[i].standard_error = errors.standard_errors[i];
+  out.correlation = std::move(errors.correlation);
   if (determined.empty()) {
     out.verdict.message = "no sample depends on any ordinate";
     return out;

@@ -28,6 +28,7 @@ const std::map<std::string, Layer> kLayers = {
     {"files", base},
     {"io/input_file", base},
     {"json", base},
+    {"json_object", base},
     {"messages", base},
     {"named_number", base},
     {"nearest", base},
@@ -88,6 +89,7 @@ const std::map<std::string, Layer> kLayers = {
     {"solver/", simulation},
     {"vertical_force", simulation},
 
+    {"bands", judgement},
     {"comparison", judgement},
     {"crush_stiffness", judgement},
     {"dtw", judgement},
@@ -114,6 +116,9 @@ const std::map<std::string, Layer> kLayers = {
     {"select_options", identification},
     {"select_verdict", identification},
     {"selection_outputs", identification},
+    {"predict", identification},
+    {"uncertainty", identification},
+    {"uncertainty_words", identification},
 
     {"batch", pipeline},
     {"batch/", pipeline},
@@ -137,6 +142,7 @@ const std::map<std::string, Layer> kLayers = {
     {"model_io", pipeline},
     {"outputs", pipeline},
     {"stage_times", pipeline},
+    {"prediction_outputs", pipeline},
     {"read_samples", pipeline},
     {"run_samples", pipeline},
     {"sample_runner", pipeline},
@@ -146,6 +152,7 @@ const std::map<std::string, Layer> kLayers = {
     {"sweep_keys", pipeline},
     {"sweep_options", pipeline},
     {"sweep_outputs", pipeline},
+    {"uncertainty_json", pipeline},
     {"vehicle_io", pipeline},
     {"vertical_io", pipeline},
 
