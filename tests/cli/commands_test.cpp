@@ -127,6 +127,22 @@ TEST_F(Commands, IdentifyWritesAModelThatSimulates) {
   EXPECT_EQ(summary_of({"simulate", "model.json"})["outcome"], "completed");
 }
 
+TEST_F(Commands, SelectWritesATableAndRecommends) {
+  workspace.file("a.csv", test::half_sine_trace());
+  workspace.file("b.csv", test::half_sine_trace(17.0));
+  const Finished finished = run({"select", "a.csv", "b.csv", "--method", "equation-error", "--laws", "force,stiffness",
+                                 "--spring-knots", "5", "--damper-knots", "0,1", "-o", "selection.csv", "--json"});
+  ASSERT_EQ(finished.exit_code, kDone) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("recommended: "));
+  const json selection = json::parse(finished.out);
+  EXPECT_EQ(selection["outcome"], "completed");
+  EXPECT_THAT(selection["rows"], SizeIs(4));
+  EXPECT_THAT(selection["rows"][0]["left_out"], SizeIs(2));
+  const std::string csv = workspace.text_of("selection.csv");
+  EXPECT_THAT(csv, HasSubstr("\nlaw,spring_knots,damper_knots,"));
+  EXPECT_THAT(csv, HasSubstr(selection["recommendation"].get<std::string>()));
+}
+
 TEST_F(Commands, AnOptionTakesOneValueAndFilesMayFollow) {
   workspace.file("a.csv", test::half_sine_trace());
   workspace.file("b.csv", test::half_sine_trace(17.0));
