@@ -163,7 +163,8 @@ TEST(ModelFile, CarriesIdentificationAndRecordThatAreNotRead) {
   fit.outcome = IdentifyOutcome::completed;
   fit.error.total = 0.25;
   fit.seed = 7;
-  fit.ordinates = {{"k1", 1.0, kUnset, 4.0, true, false}, {"k2", 2.0, 0.5, 4.0, false, true}};
+  fit.ordinates = {{"k1", FittedPart::spring, 1.0, kUnset, 4.0, true, false},
+                   {"k2", FittedPart::spring, 2.0, 0.5, 4.0, false, true}};
   const Record record = make_record("identify", {"p.csv"}, {}, {});
   const std::string text = format_model(model, &fit, &record);
   const nlohmann::json json = nlohmann::json::parse(text);
