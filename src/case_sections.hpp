@@ -38,16 +38,15 @@ struct CaseSection {
   }
 };
 
-/// Fields of the identification that describe the model.
-inline const std::vector<std::string_view> kCrushFlags = {"law",   "spring-knots", "damper-knots",
-                                                          "knots", "curve",        "reference-speed"};
-
 inline auto case_sections() {
-  std::vector<std::string_view> not_in_identify = kCrushFlags;
-  not_in_identify.insert(not_in_identify.end(), {"mass"});
+  // fields of the identification that describe the model
+  const std::vector<std::string_view> crush = {"law",   "spring-knots", "damper-knots",
+                                               "knots", "curve",        "reference-speed"};
+  std::vector<std::string_view> not_in_identify = crush;
+  not_in_identify.emplace_back("mass");
   return std::tuple(CaseSection<HeavePitchModel>{"vehicle", &Case::vehicle, {}, {"mass", "formulation"}},
                     CaseSection<PulseOptions>{"pulse", &Case::pulse, {}, {"mass", "speed"}},
-                    CaseSection<IdentifyOptions>{"crush", &Case::identify, kCrushFlags, {}},
+                    CaseSection<IdentifyOptions>{"crush", &Case::identify, crush, {}},
                     CaseSection<IdentifyOptions>{"identify", &Case::identify, {}, not_in_identify},
                     CaseSection<SimulateOptions>{"simulate", &Case::simulation, {}, {"speed", "times"}},
                     CaseSection<ForcingOptions>{"pitch", &Case::forcing, {}, {}},

@@ -34,11 +34,11 @@ int parallel_for(int count, int threads, const std::function<void(int worker, in
         thrown = std::current_exception();
         stop = true;
       }
-      const std::lock_guard lock(mutex);
+      const std::scoped_lock lock(mutex);
       if (thrown && !failure) failure = thrown;
       if (!thrown) ++done;
     }
-    const std::lock_guard lock(mutex);
+    const std::scoped_lock lock(mutex);
     --running;
     changed.notify_one();
   };
