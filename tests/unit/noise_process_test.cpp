@@ -52,7 +52,7 @@ TEST(CorrelationLag, IsZeroOfMostWhiteNoise) {
 }
 
 TEST(CorrelationLag, IsAboutTheWidthOfMovingMeans) {
-  for (const std::size_t width : {4, 12, 40}) {
+  for (const std::size_t width : {4U, 12U, 40U}) {
     const std::size_t lag = correlation_lag(moving_means(4000, width, 1));
     EXPECT_GE(lag, width / 2) << width;
     EXPECT_LE(lag, 3 * width) << width;
