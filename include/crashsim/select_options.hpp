@@ -33,11 +33,12 @@ struct SelectOptions {
   bool operator==(const SelectOptions&) const = default;
 };
 inline constexpr std::array<Field<SelectOptions>, 14> kSelectFields = {{
-    {"laws", "laws", "", "laws: stiffness, force, crush_damping, rate", &SelectOptions::laws},
+    {"laws", "law", "", "law: stiffness, force, crush_damping, rate; repeat for several", &SelectOptions::laws},
     {"spring_knots", "spring-knots", "", "numbers of knots of the spring; 0: no spring", &SelectOptions::spring_knots},
     {"damper_knots", "damper-knots", "", "numbers of knots of the damper; 0: no damper", &SelectOptions::damper_knots},
-    {"placements", "placements", "", "placements of the knots: uniform, quantile, free", &SelectOptions::placements},
-    {"curves", "curves", "", "curves between knots: linear, pchip", &SelectOptions::curves},
+    {"placements", "placement", "", "placement of the knots: uniform, quantile, free; repeat for several",
+     &SelectOptions::placements},
+    {"curves", "curve", "", "curve between knots: linear, pchip; repeat for several", &SelectOptions::curves},
     {"method", "method", "", "multistart optimisation, or equation error alone", choice<&SelectOptions::method>()},
     {"starts", "starts", "", "starts of each fit; the first is the equation-error solution", &SelectOptions::starts,
      between(1, 1e6)},

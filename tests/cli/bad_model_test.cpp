@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         model_with("ordinates_of_the_other_law", "\"impact_speed_mps\": 15", "\"law\": \"force\"",
                    {"m.json: spring: unknown name 'ordinates_n_per_m', did you mean 'ordinates_n'?"}),
         model_with("unknown_law", "\"impact_speed_mps\": 15", "\"law\": \"stifness\"",
-                   {"m.json: law: unknown name 'stifness', did you mean 'stiffness'? (known: stiffness, force)"}),
+                   {"m.json: law: unknown name 'stifness', did you mean 'stiffness'? (known: stiffness, force, "
+                    "crush_damping, rate)"}),
         model_with(
             "unknown_unloading", "\"impact_speed_mps\": 15", "\"unloading\": {\"kind\": \"plastik\"}",
             {"m.json: unloading: kind: unknown name 'plastik', did you mean 'plastic'? (known: elastic, plastic)"}),
@@ -127,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         case_text("case_value_of_another_kind", "[pulse]\nfile = 5\n",
                   {"c.toml:2: [pulse] file: must be text, not a whole number"}),
         case_text("case_unknown_choice", "[crush]\nlaw = \"plastic\"\n",
-                  {"c.toml:2: [crush] law: unknown name 'plastic' (known: stiffness, force)"}),
+                  {"c.toml:2: [crush] law: unknown name 'plastic' (known: stiffness, force, crush_damping, rate)"}),
         case_text("case_restitution_of_elastic", "[crush]\nmodel = \"m.json\"\nrestitution = 0.1\n",
                   {"c.toml: [crush] restitution goes with unloading = \"plastic\", this is \"elastic\""}),
         case_text("case_restitution_out_of_range", "[crush]\nrestitution = 1.1\n",

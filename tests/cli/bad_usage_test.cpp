@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
         with_options("unknown_algorithm", "identify", {"--algorithm", "simplex"},
                      {"--algorithm: unknown name 'simplex' (known: lbfgs, slsqp, tnewton, var2)"}),
         with_options("unknown_rule", "identify", {"--knots", "even"},
-                     {"--knots = 'even': must be uniform, quantile or numbers"}),
+                     {"--knots = 'even': must be uniform, quantile, free or numbers"}),
         with_options("knots_decrease", "identify", {"--knots", "0,0.2,0.1"},
                      {"knots[2] = 0.1 m: knots must start at 0 and increase strictly"}),
         with_options("knots_do_not_start_at_0", "identify", {"--knots", "0.1,0.2"},

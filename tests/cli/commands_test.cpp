@@ -130,8 +130,9 @@ TEST_F(Commands, IdentifyWritesAModelThatSimulates) {
 TEST_F(Commands, SelectWritesATableAndRecommends) {
   workspace.file("a.csv", test::half_sine_trace());
   workspace.file("b.csv", test::half_sine_trace(17.0));
-  const Finished finished = run({"select", "a.csv", "b.csv", "--method", "equation-error", "--laws", "force,stiffness",
-                                 "--spring-knots", "5", "--damper-knots", "0,1", "-o", "selection.csv", "--json"});
+  const Finished finished =
+      run({"select", "a.csv", "b.csv", "--method", "equation-error", "--law", "force", "--law", "stiffness",
+           "--spring-knots", "5", "--damper-knots", "0,1", "-o", "selection.csv", "--json"});
   ASSERT_EQ(finished.exit_code, kDone) << finished.err;
   EXPECT_THAT(finished.err, HasSubstr("recommended: "));
   const json selection = json::parse(finished.out);

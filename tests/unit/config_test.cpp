@@ -134,7 +134,8 @@ TEST(EntriesOf, ReadBackGiveTheSameOptions) {
     EXPECT_EQ(entry.section, "identify");
     set_from(back, entry);
   }
-  back.damper_upper = options.damper_upper = 1.0;  // unset ones are NaN, which equals nothing
+  back.damper_upper = options.damper_upper = back.rate_upper = options.rate_upper =
+      1.0;  // unset ones are NaN, which equals nothing
   EXPECT_EQ(back, options);
 }
 

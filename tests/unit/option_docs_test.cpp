@@ -48,7 +48,7 @@ TEST(DescribeField, TellsUnitDefaultRangeAndChoices) {
   EXPECT_EQ(cfc.range, ">= 0");
   EXPECT_EQ(described<IdentifyOptions>("loss").choices, "l1, l2, huber");
   EXPECT_EQ(described<IdentifyOptions>("loss").default_value, "l1");
-  EXPECT_EQ(described<IdentifyOptions>("knots").choices, "uniform, quantile, or numbers");
+  EXPECT_EQ(described<IdentifyOptions>("knots").choices, "uniform, quantile, free, or numbers");
   EXPECT_EQ(described<IdentifyOptions>("mass").default_value, "");
   EXPECT_EQ(described<SimulateOptions>("to-max-crush").default_value, "false");
 }
