@@ -42,6 +42,8 @@ PYBIND11_MODULE(_core, module) {
   bind_identify(module);
   bind_select(module);
   bind_judgement(module);
+  bind_uncertainty(module);
+  bind_predict(module);
   bind_rating(module);
   bind_wall(module);
   bind_motion(module);

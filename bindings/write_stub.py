@@ -16,7 +16,7 @@ from types import ModuleType
 HEADER = '''"""The engine of crashsim: written when the package is built."""
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Literal, SupportsFloat, SupportsIndex, SupportsInt, overload
 
 import numpy
@@ -86,6 +86,10 @@ OF_FUNCTIONS = {  # where a name means something else
     ("identify_vertical", "target"): "VerticalForceTarget | MeasuredVertical",
     ("metrics", "motion"): MOTION,
     ("make_pulse", "time_s"): "TraceSet | ArrayLike",
+    ("predict", "model"): "PredictionBasis | Identification | CrushModel | Path",
+    ("predict", "speeds"): "Number | Sequence[Number]",
+    ("predict", "uncertainty"): "Uncertainty",
+    ("uncertainty", "identify"): "Mapping[str, Any]",
     ("write_model", "result"): "CrushModel | Identification",
     ("write_vehicle", "result"): "HeavePitchModel | PitchIdentification",
     ("__contains__", "arg0"): "object",

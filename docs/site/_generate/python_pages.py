@@ -24,6 +24,10 @@ TOPICS = {
         "ParameterReport StartReport"
     ),
     "Choice of a model": "select_model Selection SelectionRow LeftOutTest",
+    "Uncertainty and prediction": (
+        "uncertainty predict read_prediction_basis Uncertainty OrdinateUncertainty FisherDirection Band "
+        "PredictionBasis SpeedPrediction PredictedSpeed PredictedCurve"
+    ),
     "Heave and pitch": (
         "simulate_pitch identify_pitch read_vehicle write_vehicle write_pitch "
         "read_forcing forcing_of HeavePitchModel Mode "
