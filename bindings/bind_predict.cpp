@@ -57,7 +57,7 @@ void bind_prediction(py::module_& module) {
       .field("high", &S::high, "Metrics: upper ends.")
       .field("without_max_crush", &S::without_max_crush, "Share of the replicates that never come to rest.")
       .field("outside_speeds", &S::outside_speeds, "Slower or faster than every test, or nothing is known of tests.")
-      .field("beyond_crush", &S::beyond_crush, "Crushes deeper than any test, or than the spring's last knot.")
+      .field("beyond_crush", &S::beyond_crush, "Crushes deeper than any test; where none is known, than the last knot.")
       .field("reasons", &S::reasons, "Why it is to be taken with care, in words.")
       .field("time_s", &S::time_s, "Of the curves [s]; empty without `curves`.")
       .field("accel_mps2", &S::accel_mps2, "PredictedCurve [m/s^2].")

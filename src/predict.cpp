@@ -58,7 +58,7 @@ void judge_speed(const std::vector<TestReport>& tests, PredictedSpeed& out) {
   out.reasons.push_back(fmt::format("{} than the {}", speed < low ? "slower" : "faster", range));
 }
 
-/// A test, or knot, that reached so far.
+/// Whether any test reached so far; where none is known, any knot.
 void judge_crush(const PredictionBasis& basis, const std::vector<TestReport>& tests, PredictedSpeed& out) {
   const double crush = out.value.max_crush_m;
   if (std::isnan(crush)) return;
@@ -70,8 +70,9 @@ void judge_crush(const PredictionBasis& basis, const std::vector<TestReport>& te
     out.beyond_crush = true;
     out.reasons.push_back(fmt::format("crush {:.3f} m is beyond {}, {:.3f} m", crush, what, limit));
   };
-  if (!std::isnan(seen)) judge(seen, "the deepest seen");
-  if (knots.size() > 1 && !(std::fabs(knots.back() - seen) <= kSameCrush * seen))
+  if (!std::isnan(seen))
+    judge(seen, "the deepest seen");
+  else if (knots.size() > 1)
     judge(knots.back(), "the last knot of the spring");
 }
 

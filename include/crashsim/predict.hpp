@@ -67,7 +67,7 @@ struct PredictedSpeed {
   Metrics low, high;  ///< Band of each; unset where there is none, or where it has no end (see without_max_crush).
   double without_max_crush = kUnset;  ///< Share of the replicates that never come to rest; unset without an ensemble.
   bool outside_speeds = false;        ///< Slower or faster than every test, or nothing is known of tests.
-  bool beyond_crush = false;          ///< Crushes deeper than any test, or than the last knot of the spring.
+  bool beyond_crush = false;          ///< Crushes deeper than any test; where none is known, than the last knot.
   std::vector<std::string> reasons;   ///< Why it is to be taken with care, in words.
   std::vector<double> time_s;         ///< Of the curves.
   PredictedCurve accel_mps2, velocity_mps, displacement_m;

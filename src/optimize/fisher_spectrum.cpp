@@ -16,6 +16,7 @@ using Eigen::VectorXd;
 
 constexpr double kSmallest = 0.1;       // size of a parameter, relative to the largest of its curve
 constexpr double kShown = 0.4;          // of the largest change of a direction
+constexpr double kCounter = 0.1;        // of it that one of the other sign has at least
 constexpr std::size_t kMostShown = 4;   // parameters of a direction
 constexpr double kLargestChange = 0.1;  // of a parameter, in words
 constexpr double kMuchBetter = 0.5;     // of its own error that a sum may have to be told of
@@ -30,19 +31,31 @@ std::string joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-/// "k3 and c5 trade off: raising k3 by 10 % and lowering c5 by 7 %".
-std::string words_of(const std::vector<double>& change, const std::vector<std::string>& names) {
+/// The parameters worth a word, the most changed first: those that change nearly as much, and the one that makes up
+/// for them most.
+std::vector<std::size_t> told_of(const std::vector<double>& change) {
   std::vector<std::size_t> order(change.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return std::fabs(change[i]); });
-  const double largest = std::fabs(change[order.front()]);
-  std::erase_if(order, [&](std::size_t i) { return std::fabs(change[i]) < kShown * largest; });
-  order.resize(std::min(order.size(), kMostShown));
-  const double sign = change[order.front()] < 0.0 ? -1.0 : 1.0;
+  const double first = change[order.front()];
+  const auto share = [&](std::size_t i) { return change[i] / first; };
+  const auto counter = std::ranges::find_if(order, [&](std::size_t i) { return share(i) < -kCounter; });
+  std::vector<std::size_t> told;
+  for (const std::size_t i : order)
+    if (std::fabs(share(i)) >= kShown && told.size() < kMostShown) told.push_back(i);
+  if (counter == order.end() || std::ranges::find(told, *counter) != told.end()) return told;
+  if (told.size() == kMostShown) told.pop_back();
+  told.push_back(*counter);
+  return told;
+}
+
+/// "k3 and c5 trade off: raising k3 by 10 % and lowering c5 by 7 %".
+std::string words_of(const std::vector<double>& change, const std::vector<std::string>& names) {
+  const std::vector<std::size_t> told = told_of(change);
   std::vector<std::string> who, what;
   bool trades = false;
-  for (const std::size_t i : order) {
-    const bool is_raised = sign * change[i] > 0.0;
+  for (const std::size_t i : told) {
+    const bool is_raised = change[i] / change[told.front()] > 0.0;
     trades = trades || !is_raised;
     who.push_back(names[i]);
     what.push_back(

@@ -209,7 +209,8 @@ TEST(ModelFile, ThatDoesNotFitItsReplicatesIsRefused) {
   };
   EXPECT_THAT(refusal(R"({"replicates": {"spring_ordinates": [[4e5, 5e5], [4e5]]}})"),
               HasSubstr("uncertainty: replicates: spring_ordinates[1]: has 1 numbers: the model's curve has 2 knots"));
-  EXPECT_THAT(refusal(R"({"replicates": {"springs": []}})"), HasSubstr("did you mean 'spring_ordinates'?"));
+  EXPECT_THAT(refusal(R"({"replicates": {"springs": []}})"),
+              HasSubstr("uncertainty: replicates: unknown name 'springs' (known: spring_ordinates, "));
   EXPECT_THAT(refusal(R"({"level": 2})"), HasSubstr("uncertainty: level = 2: must be > 0 and < 1"));
   EXPECT_THAT(refusal(R"({"replicates": {"spring_ordinates": 3}})"), HasSubstr("spring_ordinates: must be a list"));
   EXPECT_EQ(refusal("{}"), "");
