@@ -11,6 +11,7 @@
 #include <crashsim/option_values.hpp>
 #include <crashsim/simulate.hpp>
 
+#include "optimize/fit_errors.hpp"
 #include "optimize/fit_study.hpp"
 #include "optimize/identifiability.hpp"
 #include "optimize/multistart.hpp"
@@ -224,8 +225,10 @@ Identification identify(std::span<const Pulse> pulses, const IdentifyOptions& op
   out.tests = describe_tests(pulses, study);
   std::vector<double> parameters = find_parameters(study, progress, out);
   if (!parameters.empty()) {
+    const FitStudy measured = study;
     const Nuisance nuisance = correct_tests(pulses, parameters, study);
     judge(study, parameters, nuisance, out);
+    if (out.outcome != IdentifyOutcome::engines_disagree) tell_standard_errors(pulses, measured, out);
     if (out.outcome == IdentifyOutcome::not_run) out.outcome = IdentifyOutcome::completed;
   }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -14,10 +14,9 @@
 
 #include "bands.hpp"
 #include "optimize/fisher_spectrum.hpp"
-#include "optimize/linear_fit.hpp"
+#include "optimize/fit_errors.hpp"
 #include "optimize/profile.hpp"
 #include "optimize/replicates.hpp"
-#include "optimize/test_corrections.hpp"
 #include "parallel.hpp"
 #include "uncertainty_words.hpp"
 
@@ -49,58 +48,17 @@ void check(const FitStudy& study, std::span<const Pulse> pulses, const Identific
                     fit.ordinates.size(), pulses.size()));
 }
 
-using NuisanceRows = std::function<Eigen::MatrixXd(const std::vector<FitTarget>& targets)>;
-
-/// Corrects the targets by the errors of the tests that were found. @returns their rows; none when none were sought.
-NuisanceRows nuisance_of(FitStudy& study, std::span<const Pulse> pulses, const Identification& fit) {
-  const SoughtCorrections sought(study.options, pulses.size());
-  if (sought.empty()) return {};
-  std::vector<double> found;
-  for (std::size_t i = 0; i < sought.size(); ++i) {
-    const auto value = sought.reported(i).value;
-    found.push_back(fit.tests[sought.test_of(i)].*value - (value == &TestReport::gain ? 1.0 : 0.0));
-  }
-  const FitStudy measured = study;
-  for (std::size_t t = 0; t < pulses.size(); ++t)
-    study.targets[t] = corrected(measured.targets[t], pulses[t], sought.of_test(found, t));
-  return [measured, sought, found, pulses](const std::vector<FitTarget>& scaled) {
-    FitStudy with_scales = measured;
-    for (std::size_t t = 0; t < scaled.size(); ++t) {
-      with_scales.targets[t].accel_scale = scaled[t].accel_scale;
-      with_scales.targets[t].velocity_scale = scaled[t].velocity_scale;
-      with_scales.targets[t].displacement_scale = scaled[t].displacement_scale;
-    }
-    const Eigen::MatrixXd samples = correction_jacobian(with_scales, pulses, sought, found);
-    const Eigen::MatrixXd expected = correction_rows(with_scales, sought);
-    Eigen::MatrixXd rows(samples.rows() + expected.rows(), samples.cols());
-    rows << samples, expected;
-    return rows;
-  };
-}
-
-OrdinateState state_of(const OrdinateReport& ordinate, double smooth) {
-  if (ordinate.untouched && smooth == 0.0) return OrdinateState::untouched;  // else the smoothing says what it is
-  return ordinate.at_bound ? OrdinateState::at_bound : OrdinateState::free;
-}
-
 Study study_of(std::span<const Pulse> pulses, const IdentifyOptions& how, const Identification& fit,
                const UncertaintyOptions& options, Uncertainty& out) {
   Study study{options, FitStudy(pulses, how), fit.model, {}, {}};
   check(study.fit, pulses, fit);
-  Eigen::VectorXd theta(static_cast<Index>(fit.ordinates.size()));
-  std::vector<bool> is_free;
-  for (std::size_t i = 0; i < fit.ordinates.size(); ++i) {
-    const OrdinateReport& ordinate = fit.ordinates[i];
-    const auto at = static_cast<Index>(i);
-    theta[at] = ordinate.value - (ordinate.upper_bound - study.fit.upper[at]);  // of a free knot: from its lowest place
+  for (const OrdinateReport& ordinate : fit.ordinates) {
     OrdinateUncertainty& told = out.ordinates.emplace_back();
     told.name = ordinate.name;
     told.value = ordinate.value;
     told.state = state_of(ordinate, fit.smooth);
-    is_free.push_back(told.state == OrdinateState::free);
   }
-  if (!std::isnan(fit.smooth)) study.fit.smooth = fit.smooth;
-  study.linear = linearise(study.fit, theta, is_free, nuisance_of(study.fit, pulses, fit));
+  study.linear = linear_fit_of(pulses, fit, study.fit);
   study.covariance = covariance_of(study.linear);
   return study;
 }
@@ -120,12 +78,8 @@ std::vector<std::vector<double>> rows_of(const Eigen::MatrixXd& matrix) {
 /// Errors, correlations and spectrum.
 void tell_errors(const Study& study, double error, Uncertainty& out) {
   const double z = normal_quantile(0.5 + 0.5 * study.options.level);
-  Eigen::MatrixXd correlation = study.covariance;
-  for (Index i = 0; i < correlation.rows(); ++i)
-    for (Index j = 0; j < correlation.cols(); ++j)
-      correlation(i, j) /= std::sqrt(study.covariance(i, i) * study.covariance(j, j));
   out.covariance = rows_of(study.covariance);
-  out.correlation = rows_of(correlation);
+  out.correlation = rows_of(correlation_of(study.covariance));
   for (std::size_t i = 0; i < out.ordinates.size(); ++i) {
     OrdinateUncertainty& ordinate = out.ordinates[i];
     if (ordinate.state != OrdinateState::free) continue;

@@ -41,8 +41,10 @@ inline constexpr std::span<const std::string_view> enum_names<FittedPart>{kFitte
 struct OrdinateReport {
   std::string name;  ///< "k1".."kn", "c1".."cn", "r", "x2".."x(n-1)", "v2".. (law `crush_damping`: "d2"..).
   FittedPart part = FittedPart::spring;
-  double value = kUnset;           ///< [N/m], [N], [N s/m], [-], [m] or [m/s].
-  double standard_error = kUnset;  ///< Unset when the data say nothing about it.
+  double value = kUnset;  ///< [N/m], [N], [N s/m], [-], [m] or [m/s].
+  /// By noise of the acceleration that velocity and displacement share, see Uncertainty; unset where it is held at a
+  /// bound or the data say nothing about it.
+  double standard_error = kUnset;
   double upper_bound = kUnset;
   bool untouched = false;  ///< No sample depends on it: not fitted, but held as the nearest fitted one.
   bool at_bound = false;   ///< At a bound, 0 or the upper.

@@ -205,6 +205,11 @@ MatrixXd covariance_of(const LinearFit& fit) {
   return covariance;
 }
 
+MatrixXd correlation_of(const MatrixXd& covariance) {
+  const VectorXd errors = covariance.diagonal().cwiseSqrt();
+  return covariance.cwiseQuotient(errors * errors.transpose());
+}
+
 VectorXd inverse_curvature(const LinearFit& fit) {
   VectorXd diagonal = VectorXd::Constant(fit.theta.size(), kUnset);
   const FreeSpectrum spectrum(fit);

@@ -58,6 +58,9 @@ Eigen::MatrixXd score_covariance(const LinearFit& fit);
 /// 0. Unset rows and columns belong to parameters that the rows do not determine.
 Eigen::MatrixXd covariance_of(const LinearFit& fit);
 
+/// Correlations of a covariance; unset where a variance is 0 or unset.
+Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
+
 /// Diagonal of (J'J)^-1 among the free parameters; unset as above.
 Eigen::VectorXd inverse_curvature(const LinearFit& fit);
 
