@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "interrupt.hpp"
+#include "shown_number.hpp"
 
 namespace crashsim::cli {
 namespace {
@@ -16,38 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr int kNameWidth = 34;
 constexpr int kValueWidth = 14;
-
-/// How a number is shown: scaled to a unit that people read it in.
-struct Shown {
-  std::string_view suffix;
-  double factor;
-  std::string_view unit;
-};
-constexpr Shown kShown[] = {
-    // the longest suffix first
-    {"_ns_per_m", 1e-3, "kN s/m"},
-    {"_ns", 1.0, "N s"},
-    {"_n_per_m", 1e-3, "kN/m"},
-    {"_rad_per_m", 1.0, "rad/m"},
-    {"_kgm2", 1.0, "kg m^2"},
-    {"_mps2", 1.0, "m/s^2"},
-    {"_mps", 1.0, "m/s"},
-    {"_kg", 1.0, "kg"},
-    {"_rad", 1.0, "rad"},
-    {"_m", 1e3, "mm"},
-    {"_s", 1e3, "ms"},
-    {"_g", 1.0, "g"},
-    {"_n", 1e-3, "kN"},
-    {"_j", 1e-3, "kJ"},
-};
-
-std::string shown_number(std::string_view name, double value) {
-  if (std::isnan(value)) return "-";
-  if (name == "seconds") return fmt::format("{:.3g} s", value);
-  for (const Shown& shown : kShown)
-    if (name.ends_with(shown.suffix)) return fmt::format("{:.5g} {}", value * shown.factor, shown.unit);
-  return fmt::format("{:.5g}", value);
-}
 
 std::string shown_value(const SummaryItem& item) {
   if (const auto* number = std::get_if<double>(&item.value)) return shown_number(item.name, *number);

@@ -120,6 +120,7 @@ std::unique_ptr<Command> make_pulse(CLI::App& app);
 std::unique_ptr<Command> make_identify(CLI::App& app);
 std::unique_ptr<Command> make_identify_pitch(CLI::App& app);
 std::unique_ptr<Command> make_identify_vertical(CLI::App& app);
+std::unique_ptr<Command> make_correct(CLI::App& app);
 std::unique_ptr<Command> make_wall(CLI::App& app);
 std::unique_ptr<Command> make_simulate(CLI::App& app);
 std::unique_ptr<Command> make_predict(CLI::App& app);

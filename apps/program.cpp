@@ -21,9 +21,9 @@ int complain(const std::string& what, int exit_code) {
 
 std::vector<std::unique_ptr<Command>> make_commands(CLI::App& app) {
   std::vector<std::unique_ptr<Command>> commands;
-  for (const auto make : {make_info, make_pulse, make_wall, make_identify, make_simulate, make_predict, make_pitch,
-                          make_identify_pitch, make_identify_vertical, make_select, make_compare, make_run, make_batch,
-                          make_merge, make_design, make_export, make_schema})
+  for (const auto make : {make_info, make_pulse, make_correct, make_wall, make_identify, make_simulate, make_predict,
+                          make_pitch, make_identify_pitch, make_identify_vertical, make_select, make_compare, make_run,
+                          make_batch, make_merge, make_design, make_export, make_schema})
     commands.push_back(make(app));
   return commands;
 }

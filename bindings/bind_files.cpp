@@ -27,6 +27,7 @@ Record record_of(const std::string& function, const std::vector<std::string>& in
 /// The files that a result was read from.
 std::vector<std::string> inputs_of(const Pulse& pulse) { return pulse.input_files; }
 std::vector<std::string> inputs_of(const LoadCellWall& wall) { return wall.input_files; }
+std::vector<std::string> inputs_of(const SensorCorrection& correction) { return correction.input_files; }
 template <class Result>
 std::vector<std::string> inputs_of(const Result&) {
   return {};
@@ -75,6 +76,11 @@ void bind_motion_writers(py::module_& module) {
   bind_writer<LoadCellWall>(module, "write_wall",
                             taking("Writes the forces of a wall as ``wall.csv``.", "LoadCellWall"),
                             [](const LoadCellWall& wall, const Record& record) { return format_wall(wall, record); });
+  bind_writer<SensorCorrection>(
+      module, "write_sensor_correction",
+      taking("Writes the corrected channels as ``corrected.csv``, of whose mean read_pulse makes a pulse.",
+             "SensorCorrection"),
+      [](const SensorCorrection& correction, const Record& record) { return format_correction(correction, record); });
   bind_writer<Comparison>(
       module, "write_comparison", taking("Writes a comparison as ``rating.json``.", "Comparison"),
       [](const Comparison& comparison, const Record& record) { return format_comparison(comparison, record); });

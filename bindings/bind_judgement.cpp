@@ -7,6 +7,7 @@
 #include "bindings.hpp"
 #include "keywords.hpp"
 #include "long_call.hpp"
+#include "motion_arrays.hpp"
 #include "value_class.hpp"
 
 namespace crashsim {
@@ -17,26 +18,6 @@ inline constexpr std::span<const std::string_view> enum_names<AsiMethod>{kAsiMet
 
 namespace python {
 namespace {
-
-/// The arrays of a motion, as long as the call needs them.
-struct MotionArrays {
-  Doubles time_s, accel_mps2, velocity_mps, displacement_m;
-
-  [[nodiscard]] Motion view() const {
-    return {time_s.view(), accel_mps2.view(), velocity_mps.view(), displacement_m.view()};
-  }
-};
-
-/// Of any object that has the attributes: a Pulse, a response, a table.
-MotionArrays motion_of(const py::object& motion) {
-  const auto channel = [&](const char* name) {
-    if (!py::hasattr(motion, name))
-      throw py::type_error("motion: " + std::string(py::str(py::type::of(motion))) + " has no " + name +
-                           "; give a Pulse, a response, or time_s, accel_mps2, velocity_mps, displacement_m");
-    return Doubles(motion.attr(name), name);
-  };
-  return {channel("time_s"), channel("accel_mps2"), channel("velocity_mps"), channel("displacement_m")};
-}
 
 Metrics metrics_of_arrays(const MotionArrays& motion, double mass_kg) {
   return unlocked([&] { return metrics(motion.view(), mass_kg); });

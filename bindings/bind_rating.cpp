@@ -44,6 +44,7 @@ std::shared_ptr<const TraceSet> traces_of(const py::object& motion, const std::s
   if (py::isinstance<TraceSet>(motion)) return {std::shared_ptr<const TraceSet>(), &motion.cast<const TraceSet&>()};
   TraceSet set;
   set.path = role;
+  if (py::hasattr(motion, "mass_kg")) set.mass_kg = number_or_unset(motion.attr("mass_kg"), "kg", role + ".mass_kg");
   for (const std::string& name : curve_names()) {
     TimeSeries curve = curve_of(motion, name);
     if (curve.empty()) continue;
@@ -177,6 +178,43 @@ InvalidInput
 )");
 }
 
+std::vector<MetricComparison> compare_metrics_of(const py::object& reference, const py::object& candidate) {
+  const auto test = traces_of(reference, "reference"), model = traces_of(candidate, "candidate");
+  return unlocked([&] { return compare_metrics(*test, *model); });
+}
+
+void bind_metric_comparison(py::module_& module) {
+  using M = MetricComparison;
+  ValueClass<M>(module, "MetricComparison", "One metric of a reference's motion beside the candidate's.")
+      .field("name", &M::name, "As in Metrics: 'max_crush_m'.")
+      .field("doc", &M::doc, "For people: 'maximum dynamic crush'.")
+      .field("reference", &M::reference, "Of the reference, in the unit of its name; NaN where it does not exist.")
+      .field("candidate", &M::candidate, "Of the candidate.")
+      .field("difference", &M::difference, "(candidate - reference) / abs(reference).");
+  module.def("compare_metrics", &compare_metrics_of, py::arg("reference"), py::arg("candidate"),
+             R"(All metrics of two motions side by side, each from time 0 to its own end.
+
+Parameters
+----------
+reference : TraceSet, Pulse, response or alike
+    The test: any object with accel_mps2, velocity_mps and displacement_m over time_s.
+candidate : TraceSet, Pulse, response or alike
+    The model.
+
+Returns
+-------
+list of MetricComparison
+    In the order of Metrics; empty when a trace set holds no motion towards the barrier.
+
+Raises
+------
+InvalidInput
+    When a motion has a missing value.
+TypeError
+    When an object has no curves at all.
+)");
+}
+
 void bind_comparison(py::module_& module) {
   ValueClass<ChannelComparison>(module, "ChannelComparison", "One channel compared, over the samples of the reference.")
       .field("name", &ChannelComparison::name, "As the reference calls it.")
@@ -231,6 +269,7 @@ void bind_rating(py::module_& module) {
   bind_scores(module);
   bind_rate(module);
   bind_comparison(module);
+  bind_metric_comparison(module);
   module.def("check_redundant", &check_redundant, py::arg("traces"), py::call_guard<py::gil_scoped_release>(),
              R"(Findings of redundant channels, and of the compartment's two sides, that should agree and do not.
 

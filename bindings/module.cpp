@@ -45,7 +45,9 @@ PYBIND11_MODULE(_core, module) {
   bind_uncertainty(module);
   bind_predict(module);
   bind_rating(module);
+  bind_plausibility(module);
   bind_wall(module);
+  bind_sensors(module);
   bind_motion(module);
   bind_pitch(module);
   bind_pitch_identify(module);

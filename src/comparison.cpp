@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <crashsim/metrics.hpp>
 #include <crashsim/option_values.hpp>
+#include <crashsim/plausibility.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/units.hpp>
 
@@ -115,6 +117,28 @@ ChannelComparison compare_channel(const Pair& pair, const CompareOptions& option
   return channel;
 }
 
+/// The motion that a set holds.
+std::optional<Motion> motion_in(const TraceSet& set) {
+  constexpr std::size_t kFewestOfMotion = 3;
+  const auto find = [&](std::string_view name, Dimension dimension) -> const Trace* {
+    const auto found = std::find_if(set.traces.begin(), set.traces.end(), [&](const Trace& trace) {
+      return trace.has_samples && trace.dimension == dimension && stem(trace.name) == name;
+    });
+    return found == set.traces.end() ? nullptr : &*found;
+  };
+  const Trace* accel = find("accel", Dimension::acceleration);
+  const Trace* velocity = find("velocity", Dimension::speed);
+  const Trace* displacement = find("displacement", Dimension::length);
+  if (accel == nullptr || velocity == nullptr || displacement == nullptr) return std::nullopt;
+  const auto times = accel->times();
+  for (const Trace* other : {velocity, displacement})
+    if (!std::equal(times.begin(), times.end(), other->times().begin(), other->times().end())) return std::nullopt;
+  const auto impact = std::lower_bound(times.begin(), times.end(), 0.0) - times.begin();
+  if (times.size() < static_cast<std::size_t>(impact) + kFewestOfMotion) return std::nullopt;
+  if (!(velocity->values[static_cast<std::size_t>(impact)] > 0.0)) return std::nullopt;
+  return Motion{times, accel->values, velocity->values, displacement->values};
+}
+
 }  // namespace
 
 Comparison compare(const TraceSet& reference, const TraceSet& candidate, const CompareOptions& options) {
@@ -123,6 +147,28 @@ Comparison compare(const TraceSet& reference, const TraceSet& candidate, const C
   for (const Pair& pair : pair_up(reference, candidate, options, out))
     out.channels.push_back(compare_channel(pair, options, out));
   return out;
+}
+
+std::vector<MetricComparison> compare_metrics(const TraceSet& reference, const TraceSet& candidate) {
+  const std::optional<Motion> first = motion_in(reference), second = motion_in(candidate);
+  std::vector<MetricComparison> compared;
+  if (!first || !second) return compared;
+  const Metrics a = metrics(*first, reference.mass_kg), b = metrics(*second, candidate.mass_kg);
+  for (const MetricField& field : kMetricFields) {
+    const double of_reference = a.*field.member, of_candidate = b.*field.member;
+    compared.push_back({std::string(field.name), std::string(field.doc), of_reference, of_candidate,
+                        (of_candidate - of_reference) / std::abs(of_reference)});
+  }
+  return compared;
+}
+
+std::vector<std::string> check_motion(const TraceSet& set) {
+  const std::optional<Motion> motion = motion_in(set);
+  if (!motion) return {};
+  std::vector<std::string> findings =
+      check_balance(motion_balance(motion->time_s, motion->accel_mps2, motion->velocity_mps, motion->displacement_m));
+  for (std::string& finding : findings) finding = fmt::format("{}: {}", set.path, finding);
+  return findings;
 }
 
 }  // namespace crashsim

@@ -18,7 +18,7 @@ namespace {
 Comments header(const Record& record, double mass_kg, double impact_speed_mps) {
   Comments comments = {{"crashsim", record.version}};
   if (!std::isnan(mass_kg)) comments.emplace_back("mass_kg", format_number(mass_kg));
-  comments.emplace_back("impact_speed_mps", format_number(impact_speed_mps));
+  if (!std::isnan(impact_speed_mps)) comments.emplace_back("impact_speed_mps", format_number(impact_speed_mps));
   return comments;
 }
 
@@ -90,6 +90,25 @@ std::string format_wall(const LoadCellWall& wall, const Record& record) {
   return format_csv(comments, columns);
 }
 
+std::string format_correction(const SensorCorrection& correction, const Record& record) {
+  const TraceSet& set = correction.corrected;
+  Comments comments = header(record, set.mass_kg, set.impact_speed_mps);
+  comments.emplace_back("outcome", std::string(name_of(correction.outcome)));
+  if (!set.traces.empty()) comments.emplace_back("compartment_x", set.traces.front().name);
+  for (const ChannelCorrection& channel : correction.channels)
+    comments.emplace_back("corrected", fmt::format("{}: bias_mps2 {}, gain {}, time_shift_s {}", channel.channel,
+                                                   format_number(channel.bias_mps2), format_number(channel.gain),
+                                                   format_number(channel.time_shift_s)));
+  for (const std::string& step : correction.steps) comments.emplace_back("step", step);
+  for (const std::string& share : correction.by_prior) comments.emplace_back("by_prior", share);
+  for (const std::string& warning : correction.warnings) comments.emplace_back("warning", warning);
+  comments.emplace_back("record", to_json(record));
+  std::vector<Column> columns;
+  if (!set.traces.empty()) columns.push_back({"time_s", set.traces.front().times()});
+  for (const Trace& trace : set.traces) columns.push_back({trace.name, trace.values});
+  return format_csv(comments, columns);
+}
+
 std::string format_response(const CrushResponse& response, double mass_kg, const Record& record) {
   Comments comments = header(record, mass_kg, response.impact_speed_mps);
   comments.emplace_back("outcome", std::string(name_of(response.outcome)));
@@ -113,6 +132,17 @@ std::string format_coupled(const CoupledResponse& response, const Record& record
 
 std::string format_comparison(const Comparison& comparison, const Record& record) {
   Json json = comparison_json(comparison);
+  json["record"] = record_json(record);
+  return format_json(json);
+}
+
+std::string format_comparison(const Comparison& comparison, const std::vector<MetricComparison>& metrics,
+                              const Record& record) {
+  Json json = comparison_json(comparison);
+  for (const MetricComparison& metric : metrics)
+    json["metrics"][metric.name] = {{"reference", json_number(metric.reference)},
+                                    {"candidate", json_number(metric.candidate)},
+                                    {"difference", json_number(metric.difference)}};
   json["record"] = record_json(record);
   return format_json(json);
 }

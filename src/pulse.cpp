@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <crashsim/plausibility.hpp>
 #include <crashsim/redundancy.hpp>
 #include <crashsim/trace_io.hpp>
 #include <crashsim/units.hpp>
@@ -19,26 +20,14 @@ namespace crashsim {
 namespace {
 
 constexpr std::size_t kFewestPulseSamples = 10;
-/// 5th and 95th percentile of 675 NHTSA frontal tests into a rigid wall.
-constexpr double kFleetCrush_m[] = {0.442, 0.796};
-constexpr double kFleetPeak_g[] = {25.5, 56.3};
 
 void check_positive(double value, std::string_view name, std::string_view unit) {
   if (!(value > 0.0) || !std::isfinite(value))
     throw InvalidInput(fmt::format("{} = {} {}: must be > 0", name, value, unit));
 }
 
-void warn_when_unlike_the_fleet(Pulse& pulse) {
-  const double peak_g = -*std::min_element(pulse.accel_mps2.begin(), pulse.accel_mps2.end()) / kStandardGravity;
-  const auto outside = [](double value, const double(&range)[2]) { return value < range[0] || value > range[1]; };
-  const auto warn = [&](std::string_view what, double value, std::string_view unit, const double(&range)[2]) {
-    pulse.warnings.push_back(
-        fmt::format("{} {:.3g} {} is outside {} to {} {}, where 9 of 10 frontal rigid-wall tests lie: "
-                    "check channel, units and speed",
-                    what, value, unit, range[0], range[1], unit));
-  };
-  if (outside(pulse.max_crush_m, kFleetCrush_m)) warn("maximum crush", pulse.max_crush_m, "m", kFleetCrush_m);
-  if (outside(peak_g, kFleetPeak_g)) warn("peak deceleration", peak_g, "g", kFleetPeak_g);
+void append(std::vector<std::string>& warnings, const std::vector<std::string>& findings) {
+  warnings.insert(warnings.end(), findings.begin(), findings.end());
 }
 
 /// Forms velocity, displacement and maximum crush from time and acceleration.
@@ -55,7 +44,10 @@ void find_end_of_crush(Pulse& pulse) {
   const MaxCrush end = find_max_crush(pulse.time_s, pulse.accel_mps2, pulse.velocity_mps, pulse.displacement_m);
   pulse.t_m_s = end.t_m_s;
   pulse.max_crush_m = end.max_crush_m;
-  if (!std::isnan(end.t_m_s)) return warn_when_unlike_the_fleet(pulse);
+  if (!std::isnan(end.t_m_s)) {
+    const double peak_g = -*std::min_element(pulse.accel_mps2.begin(), pulse.accel_mps2.end()) / kStandardGravity;
+    return append(pulse.warnings, check_fleet(pulse.max_crush_m, peak_g));
+  }
   pulse.warnings.push_back(
       fmt::format("velocity does not reach zero within {:.4g} s, so there is no time of maximum crush: check channel, "
                   "units, speed and length of the record",
@@ -134,6 +126,8 @@ Pulse as_written(TraceSet set, const PulseOptions& options) {
   pulse.channels = {set.path};
   pulse.steps = {"taken as written: not filtered or integrated again"};
   pulse.input_files = set.input_files;
+  append(pulse.warnings,
+         check_balance(motion_balance(pulse.time_s, pulse.accel_mps2, pulse.velocity_mps, pulse.displacement_m)));
   find_end_of_crush(pulse);
   return pulse;
 }
@@ -167,7 +161,8 @@ Pulse make_pulse(std::span<const double> time_s, std::span<const double> accel_m
 Pulse make_pulse(const TraceSet& traces, const PulseOptions& options) {
   if (is_own_pulse(traces, options)) return as_written(traces, options);
   PulseChannels channels = prepare_channels(traces, options);
-  const double t0_s = process(channels, options, traces.path);
+  const double t0_s = set_zero(channels, options, traces.path);
+  filter(channels, options, traces.path);
   Pulse pulse;
   pulse.time_zero_s = t0_s;
   pulse.mass_kg = std::isnan(options.mass_kg) ? traces.mass_kg : options.mass_kg;
@@ -177,9 +172,8 @@ Pulse make_pulse(const TraceSet& traces, const PulseOptions& options) {
   const Average average = average_channels(channels, t0_s, known_speed(traces, options), traces.path);
   pulse.impact_speed_mps = average.impact_speed_mps;
   pulse.steps = std::move(channels.steps);
-  pulse.warnings.insert(pulse.warnings.end(), channels.warnings.begin(), channels.warnings.end());
-  const std::vector<std::string> findings = check_redundant(traces);
-  pulse.warnings.insert(pulse.warnings.end(), findings.begin(), findings.end());
+  append(pulse.warnings, channels.warnings);
+  append(pulse.warnings, check_redundant(traces));
   cut_at_time_zero(channels, average.accel_mps2, t0_s, pulse);
   integrate_motion(pulse);
   find_end_of_crush(pulse);

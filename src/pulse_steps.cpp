@@ -120,22 +120,12 @@ void remove_offset(PulseChannels& channels, const PulseOptions& options, double 
   remove_offset_before(channels, t0_s);
 }
 
-void filter(PulseChannels& channels, const PulseOptions& options, const std::string& path) {
-  if (!(options.cfc >= 0.0)) throw InvalidInput(fmt::format("cfc = {} Hz: must be >= 0", options.cfc));
-  if (options.cfc == 0.0) return channels.steps.push_back("filter: none, as asked");
-  for (PulseChannel& channel : channels.channels)
-    channel.values = for_channel(
-        path, channel, [&] { return cfc_filter(channel.values, channels.dt_s, options.cfc, options.cfc_standard); });
-  channels.steps.push_back(
-      fmt::format("filter: CFC{:g} ({}), forward and backward", options.cfc, name_of(options.cfc_standard)));
-}
-
 double value_at(const PulseChannels& channels, const std::vector<double>& values, double t_s) {
   return resample(channels.time_s, values, std::vector<double>{t_s}).front();
 }
 
 /// Turns a channel whose axis points backward: one that travels backward before impact, or accelerates forward in it.
-void turn_forward(PulseChannels& channels, PulseChannel& channel, double t0_s, double speed_mps) {
+void turn_channel_forward(PulseChannels& channels, PulseChannel& channel, double t0_s, double speed_mps) {
   double forward = 0.0;
   if (channels.dimension == Dimension::speed) {
     forward = value_at(channels, channel.values, t0_s);
@@ -165,11 +155,24 @@ std::vector<double> mean_of(const PulseChannels& channels) {
 
 }  // namespace
 
-double process(PulseChannels& channels, const PulseOptions& options, const std::string& path) {
+double set_zero(PulseChannels& channels, const PulseOptions& options, const std::string& path) {
   const double t0_s = time_zero(channels, options, path);
   remove_offset(channels, options, t0_s, path);
-  filter(channels, options, path);
   return t0_s;
+}
+
+void filter(PulseChannels& channels, const PulseOptions& options, const std::string& path) {
+  if (!(options.cfc >= 0.0)) throw InvalidInput(fmt::format("cfc = {} Hz: must be >= 0", options.cfc));
+  if (options.cfc == 0.0) return channels.steps.push_back("filter: none, as asked");
+  for (PulseChannel& channel : channels.channels)
+    channel.values = for_channel(
+        path, channel, [&] { return cfc_filter(channel.values, channels.dt_s, options.cfc, options.cfc_standard); });
+  channels.steps.push_back(
+      fmt::format("filter: CFC{:g} ({}), forward and backward", options.cfc, name_of(options.cfc_standard)));
+}
+
+void turn_forward(PulseChannels& channels, double t0_s, double speed_mps) {
+  for (PulseChannel& channel : channels.channels) turn_channel_forward(channels, channel, t0_s, speed_mps);
 }
 
 Average average_channels(PulseChannels& channels, double t0_s, double speed_mps, const std::string& path) {
@@ -177,7 +180,7 @@ Average average_channels(PulseChannels& channels, double t0_s, double speed_mps,
   if (std::isnan(speed_mps) && !of_speed)
     throw InvalidInput(
         fmt::format("{}: impact speed unknown: the file does not say it; give impact_speed_mps (--speed)", path));
-  for (PulseChannel& channel : channels.channels) turn_forward(channels, channel, t0_s, speed_mps);
+  turn_forward(channels, t0_s, speed_mps);
   Average average{mean_of(channels), speed_mps};
   if (channels.channels.size() > 1)
     channels.steps.push_back(fmt::format("average of {} channels", channels.channels.size()));

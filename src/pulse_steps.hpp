@@ -10,9 +10,15 @@
 
 namespace crashsim {
 
-/// Takes offsets off, finds time zero and filters every channel. Returns time zero [s on the channels' clock].
+/// Finds time zero and takes offsets off every channel. Returns time zero [s on the channels' clock].
 /// @throws InvalidInput naming the file, the channel and the rule.
-double process(PulseChannels& channels, const PulseOptions& options, const std::string& path);
+double set_zero(PulseChannels& channels, const PulseOptions& options, const std::string& path);
+
+/// Filters every channel. @throws InvalidInput naming the file, the channel and the rule.
+void filter(PulseChannels& channels, const PulseOptions& options, const std::string& path);
+
+/// Turns channels whose axis points backward, so that the vehicle moves along +x before it hits.
+void turn_forward(PulseChannels& channels, double t0_s, double speed_mps);
 
 /// Mean of the channels, turned so that the vehicle moves along +x before it hits.
 struct Average {

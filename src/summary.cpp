@@ -147,6 +147,36 @@ Summary summarize(const VerticalIdentification& fit) {
   return summary;
 }
 
+Summary summarize(const SensorCorrection& correction) {
+  return {{"outcome", std::string(name_of(correction.outcome)), "outcome"},
+          {"channel_count", std::ssize(correction.channels), "channels"},
+          {"noise_mps2", correction.noise_mps2, "noise of a channel"},
+          {"correlation_time_s", correction.correlation_time_s, "its correlation in time"},
+          {"wall_gain", correction.wall_gain, "gain of the wall"},
+          {"wall_gain_error", correction.wall_gain_error, "its standard error"}};
+}
+
+std::string format_summary(const SensorCorrection& correction) {
+  Json json = to_json(summarize(correction));
+  json["channels"] = Json::array();
+  for (const ChannelCorrection& channel : correction.channels) {
+    Json numbers = {{"channel", channel.channel}};
+    for (const auto& number : kChannelCorrectionNumbers)
+      numbers[std::string(number.name)] = json_number(channel.*number.member);
+    json["channels"].push_back(std::move(numbers));
+  }
+  json["conditions"] = Json::array();
+  for (const CorrectionCondition& condition : correction.conditions)
+    json["conditions"].push_back({{"name", condition.name},
+                                  {"known_mps", json_number(condition.known_mps)},
+                                  {"standard_deviation_mps", json_number(condition.standard_deviation_mps)},
+                                  {"before_mps", json_number(condition.before_mps)},
+                                  {"after_mps", json_number(condition.after_mps)}});
+  json["by_prior"] = correction.by_prior;
+  json["warnings"] = correction.warnings;
+  return format_json(json);
+}
+
 std::string format_summary(const Summary& summary) { return format_json(to_json(summary)); }
 
 std::string format_summary(const Summary& summary, const std::vector<std::pair<std::string, Summary>>& parts) {

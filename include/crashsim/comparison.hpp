@@ -53,10 +53,28 @@ struct NamedComparison {
   Comparison result;
 };
 
+/// One metric of a reference's motion beside the candidate's.
+struct MetricComparison {
+  std::string name;  ///< As in kMetricFields: "max_crush_m".
+  std::string doc;   ///< "maximum dynamic crush".
+  double reference = kUnset, candidate = kUnset;
+  double difference = kUnset;  ///< (candidate - reference) / |reference|.
+};
+
 /// Compares the channels of the same name that both sets have samples of; a unit suffix may differ (`accel_g` and
 /// `accel_mps2`). The candidate is interpolated linearly at the reference's samples; a reference with non-uniform steps
 /// is first brought to uniform ones.
 /// @throws InvalidInput when they have no channel or no time in common, or a channel has a missing value.
 Comparison compare(const TraceSet& reference, const TraceSet& candidate, const CompareOptions& options = {});
+
+/// All metrics of two longitudinal motions from time 0 to the end of each, side by side. A set holds one when it has
+/// acceleration, velocity and displacement on one clock under those names (`accel_mps2`, `accel_g`, ..), with 3 samples
+/// from time 0 on and a velocity > 0 there; empty when one of the sets has none.
+/// @throws InvalidInput when a motion has a missing value.
+std::vector<MetricComparison> compare_metrics(const TraceSet& reference, const TraceSet& candidate);
+
+/// What is out of balance in the motion that a set holds, as check_balance(), each with the set's path; empty without
+/// one. @throws InvalidInput when the motion has a missing value.
+std::vector<std::string> check_motion(const TraceSet& set);
 
 }  // namespace crashsim

@@ -37,6 +37,7 @@
 #include <crashsim/options.hpp>
 #include <crashsim/outputs.hpp>
 #include <crashsim/piecewise_linear.hpp>
+#include <crashsim/plausibility.hpp>
 #include <crashsim/predict.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/rating.hpp>
@@ -47,6 +48,8 @@
 #include <crashsim/sampling.hpp>
 #include <crashsim/select_model.hpp>
 #include <crashsim/select_options.hpp>
+#include <crashsim/sensor_correction.hpp>
+#include <crashsim/sensor_correction_options.hpp>
 #include <crashsim/signal.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>

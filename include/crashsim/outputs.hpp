@@ -10,6 +10,7 @@
 #include <crashsim/predict.hpp>
 #include <crashsim/pulse.hpp>
 #include <crashsim/record.hpp>
+#include <crashsim/sensor_correction.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
@@ -23,7 +24,11 @@ std::string format_pulse(const Pulse& pulse, const Record& record);
 /// column of cells; heights of rows, cells left out, steps and warnings as comments.
 std::string format_wall(const LoadCellWall& wall, const Record& record);
 
-/// response.csv: the same columns, then `spring_force_n,damper_force_n,energy_residual_j`.
+/// corrected.csv: `time_s,accel_mps2` (the mean), then `accel_93_mps2` for each channel; what was corrected, steps and
+/// warnings as comments. A pulse is made of the mean unless other channels are chosen.
+std::string format_correction(const SensorCorrection& correction, const Record& record);
+
+/// response.csv: the columns of pulse.csv, then `spring_force_n,damper_force_n,energy_residual_j`.
 std::string format_response(const CrushResponse& response, double mass_kg, const Record& record);
 
 /// pitch.csv: the columns of kPitchColumns; outcome and notes as comments.
@@ -41,6 +46,9 @@ std::string prediction_json(const SpeedPrediction& prediction);
 /// rating.json, or comparison.json when there are several: each under its name.
 std::string format_comparisons(const std::vector<NamedComparison>& comparisons, const Record& record);
 std::string format_comparison(const Comparison& comparison, const Record& record);
+/// rating.json with metrics side by side.
+std::string format_comparison(const Comparison& comparison, const std::vector<MetricComparison>& metrics,
+                              const Record& record);
 
 /// case.lock.json: the record alone.
 std::string format_record(const Record& record);

@@ -13,6 +13,7 @@
 #include <crashsim/load_cell_wall.hpp>
 #include <crashsim/metrics.hpp>
 #include <crashsim/pulse.hpp>
+#include <crashsim/sensor_correction.hpp>
 #include <crashsim/simulate.hpp>
 #include <crashsim/simulate_coupled.hpp>
 #include <crashsim/simulate_pitch.hpp>
@@ -50,6 +51,12 @@ Summary summarize(const Identification& identification);
 /// Outcome, errors, the numbers identified, starts and verdict.
 Summary summarize(const PitchIdentification& identification);
 Summary summarize(const VerticalIdentification& identification);
+
+/// Outcome, channels, noise, and the gain of the wall.
+Summary summarize(const SensorCorrection& correction);
+
+/// The summary of a correction as a JSON object, with its channels, conditions, what the priors determine and warnings.
+std::string format_summary(const SensorCorrection& correction);
 
 /// A summary as a JSON object.
 std::string format_summary(const Summary& summary);

@@ -132,6 +132,11 @@ TraceSet catalogue_of(const InputFile& file, const CsvLayout& layout, const std:
     trace.has_samples = false;
     set.traces.push_back(std::move(trace));
   }
+  for (const auto& [key, value] : layout.comments) {
+    if (key != "compartment_x" || !set.compartment_x.empty()) continue;
+    for (const Trace& trace : set.traces)
+      if (trace.name == value) set.compartment_x.push_back(trace.id);
+  }
   return set;
 }
 

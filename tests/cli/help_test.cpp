@@ -59,7 +59,7 @@ TEST_P(Help, ItsExampleWorksWordForWord) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
-                         testing::Values("info", "pulse", "wall", "identify", "simulate", "predict", "pitch",
+                         testing::Values("info", "pulse", "correct", "wall", "identify", "simulate", "predict", "pitch",
                                          "identify-pitch", "identify-vertical", "select", "compare", "run", "batch",
                                          "merge", "design", "export", "schema"));
 
@@ -78,8 +78,8 @@ TEST_F(Program, HelpsOnAllCommands) {
   const Finished finished = workspace.run({"--help"});
   EXPECT_EQ(finished.exit_code, kDone);
   for (const char* command :
-       {"info", "pulse", "wall", "identify", "simulate", "predict", "pitch", "identify-pitch", "identify-vertical",
-        "select", "compare", "run", "batch", "merge", "design", "export", "schema"})
+       {"info", "pulse", "correct", "wall", "identify", "simulate", "predict", "pitch", "identify-pitch",
+        "identify-vertical", "select", "compare", "run", "batch", "merge", "design", "export", "schema"})
     EXPECT_THAT(finished.out, HasSubstr(command));
   EXPECT_THAT(examples_in(finished.out), SizeIs(1));
 }

@@ -1,5 +1,6 @@
 #include <crashsim/comparison.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include <gmock/gmock.h>
+
+#include <crashsim/metrics.hpp>
 
 namespace crashsim {
 namespace {
@@ -178,6 +181,82 @@ TEST(Compare, RefusesMissingValues) {
   const Curve gap = [](double t) { return t == 0.0 ? kUnset : 1.0; };
   EXPECT_THAT([&] { static_cast<void>(compare(one("a", times, half_sine), one("b", times, gap))); },
               ThrowsMessage<InvalidInput>(HasSubstr("accel_mps2: sample 1 at 0 s is nan: must be finite")));
+}
+
+/// A motion under constant deceleration `a` from 15 m/s, to `end_s`, with the channels' names.
+TraceSet braking(double a, double end_s, const char* accel = "accel_mps2") {
+  const auto times = clock(-0.01, end_s);
+  const auto since = [](double t) { return std::max(t, 0.0); };
+  return set_of("braking",
+                {trace(accel, Dimension::acceleration, times, [=](double t) { return t < 0.0 ? 0.0 : -a; }),
+                 trace("velocity_mps", Dimension::speed, times, [=](double t) { return 15.0 - a * since(t); }),
+                 trace("displacement_m", Dimension::length, times,
+                       [=](double t) { return 15.0 * t - 0.5 * a * since(t) * since(t); })});
+}
+
+TEST(CompareMetrics, ArePutSideBySide) {
+  TraceSet test = braking(200.0, 0.1), model = braking(220.0, 0.12, "accel_g");
+  test.mass_kg = model.mass_kg = 1500.0;
+  const std::vector<MetricComparison> compared = compare_metrics(test, model);
+  ASSERT_THAT(compared, SizeIs(kMetricFields.size()));
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    EXPECT_EQ(compared[i].name, kMetricFields[i].name);
+    EXPECT_EQ(compared[i].doc, kMetricFields[i].doc);
+  }
+  const auto find = [&](std::string_view name) {
+    return *std::find_if(compared.begin(), compared.end(), [&](const auto& m) { return m.name == name; });
+  };
+  EXPECT_NEAR(find("t_m_s").reference, 15.0 / 200.0, kRounding);
+  EXPECT_NEAR(find("t_m_s").candidate, 15.0 / 220.0, kRounding);
+  EXPECT_NEAR(find("t_m_s").difference, 200.0 / 220.0 - 1.0, kRounding);
+  EXPECT_NEAR(find("peak_decel_g").difference, 0.1, kRounding);
+  EXPECT_NEAR(find("energy_j").difference, 0.0, kRounding);
+  EXPECT_THAT(find("restitution").reference, IsNan());
+  EXPECT_THAT(find("restitution").difference, IsNan());
+}
+
+TEST(CompareMetrics, DifferencesOfNegativeNumbersGrowWithThem) {
+  // Both end in rebound, braked no more after 80 ms: of -1 and -2.6 m/s.
+  const auto rebounding = [](double a) {
+    TraceSet set = braking(a, 0.08);
+    TraceSet rest = braking(0.0, 0.12);
+    for (std::size_t c = 0; c < 3; ++c) {
+      Trace& channel = rest.traces[c];
+      const std::vector<double>& braked = set.traces[c].values;
+      for (std::size_t i = 0; i < channel.values.size(); ++i)
+        channel.values[i] = i < braked.size() ? braked[i] : c == 0 ? 0.0 : braked.back();
+    }
+    return rest;
+  };
+  const auto compared = compare_metrics(rebounding(200.0), rebounding(220.0));
+  const auto rebound =
+      std::find_if(compared.begin(), compared.end(), [](const auto& m) { return m.name == "rebound_velocity_mps"; });
+  EXPECT_NEAR(rebound->reference, -1.0, kRounding);
+  EXPECT_NEAR(rebound->difference, -1.6, kRounding * 1e2);
+}
+
+TEST(CompareMetrics, NeedTwoMotions) {
+  const auto times = clock(0.0, 0.12);
+  EXPECT_THAT(compare_metrics(braking(200.0, 0.1), one("b", times, half_sine)), IsEmpty());
+  const auto compares = [](const TraceSet& other) { return !compare_metrics(braking(200.0, 0.1), other).empty(); };
+  EXPECT_TRUE(compares(braking(200.0, 0.1)));
+  TraceSet backward = braking(200.0, 0.1);
+  for (double& v : backward.traces[1].values) v = -v;
+  EXPECT_FALSE(compares(backward)) << "no metrics of a motion away from the barrier";
+  TraceSet other_clock = braking(200.0, 0.1);
+  other_clock.traces[2] = braking(200.0, 0.2).traces[2];
+  EXPECT_FALSE(compares(other_clock));
+  EXPECT_FALSE(compares(braking(200.0, 0.0))) << "one sample from impact on";
+}
+
+TEST(CheckMotion, TellsTheFileThatIsOutOfBalance) {
+  TraceSet set = braking(200.0, 0.1);
+  EXPECT_THAT(check_motion(set), IsEmpty());
+  for (double& x : set.traces[2].values) x *= 1.05;
+  EXPECT_THAT(check_motion(set),
+              testing::Contains(HasSubstr("braking: displacement is not the integral of velocity: they differ by 4.76 "
+                                          "% of the largest displacement")));
+  EXPECT_THAT(check_motion(one("b", clock(0.0, 0.12), half_sine)), IsEmpty());
 }
 
 }  // namespace

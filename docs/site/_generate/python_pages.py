@@ -15,6 +15,10 @@ TOPICS = {
         "read_wall assemble_wall wall_channels wall_numbers check_momentum write_wall "
         "LoadCellWall WallStrip WallNumbers"
     ),
+    "Sensor corrections": (
+        "correct_sensors read_sensor_correction write_sensor_correction SensorCorrection ChannelCorrection "
+        "CorrectionCondition"
+    ),
     "Crush": (
         "simulate simulate_many read_model write_model write_response export_model uniform_knots CrushModel "
         "PiecewiseLinear Unloading CrushResponse SolverStatistics CrushModels CrushResponses"
@@ -42,8 +46,8 @@ TOPICS = {
     "Judgement": (
         "metrics rate grade errors compare write_comparison occupant_load_criterion sliding_mean_peak "
         "vehicle_pulse_index acceleration_severity_index kw400 ahof400 crash3_stiffness "
-        "energy_equivalent_speed Metrics Olc Crash3 Rating ErrorSummary ChannelComparison "
-        "Comparison NamedComparison"
+        "energy_equivalent_speed compare_metrics motion_balance check_balance check_fleet Metrics Olc Crash3 Rating "
+        "ErrorSummary ChannelComparison Comparison NamedComparison MetricComparison MotionBalance"
     ),
     "Measured motion of the body": "read_motion body_motion BodyStation BodyMotion MeasuredMotion",
     "Studies": "run_case read_case find_record summarize report Case CaseResult Prediction",
