@@ -72,8 +72,9 @@ TEST(Verdict, OrdinatesBeyondTheReachedCrushAreUntouchedAndHeld) {
   for (std::size_t i = 0; i < 7; ++i) {
     const bool beyond = i > 4;
     EXPECT_EQ(fit.ordinates[i].untouched, beyond) << fit.ordinates[i].name;
-    EXPECT_EQ(std::isnan(fit.ordinates[i].standard_error), beyond) << fit.ordinates[i].name;
-    EXPECT_EQ(std::isnan(fit.correlation[i][0]), beyond);
+    const bool is_held = beyond || fit.ordinates[i].at_bound;
+    EXPECT_EQ(std::isnan(fit.ordinates[i].standard_error), is_held) << fit.ordinates[i].name;
+    EXPECT_EQ(std::isnan(fit.correlation[i][0]), is_held || fit.ordinates[0].at_bound) << fit.ordinates[i].name;
     if (beyond) {
       EXPECT_EQ(fit.ordinates[i].value, fit.ordinates[4].value);
     }
