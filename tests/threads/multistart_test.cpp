@@ -1,7 +1,7 @@
 /// What an identification's numbers depend on: seed and start index, never the number of threads.
 
-#include <cmath>
 #include <atomic>
+#include <cmath>
 
 #include <gmock/gmock.h>
 
