@@ -75,7 +75,7 @@ void expect_alike(const std::string& printed, const std::string& promised) {
 
 TEST(Readme, ItsTourPrintsWhatItSays) {
   const std::vector<Step> tour = tour_of(read_file(std::string(test::source_dir()) + "/README.md"));
-  constexpr std::size_t kSteps = 6;
+  constexpr std::size_t kSteps = 9;
   ASSERT_EQ(tour.size(), kSteps);
   const test::Workspace workspace;
   for (const Step& step : tour) {
