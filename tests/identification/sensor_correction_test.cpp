@@ -125,7 +125,7 @@ TEST(SensorCorrection, OneChannelAndOneVelocityDetermineNothingByThemselves) {
   ASSERT_THAT(found.by_prior, SizeIs(3));
   EXPECT_THAT(found.by_prior[0], HasSubstr("bias of the channel: "));
   EXPECT_THAT(found.by_prior[1], HasSubstr("gain of the channel: "));
-  EXPECT_THAT(found.by_prior[2], HasSubstr("time shift of the channel: 9"));
+  EXPECT_THAT(found.by_prior[2], HasSubstr("time shift of the channel: "));
   EXPECT_THAT(found.noise_mps2, IsNan());
   ASSERT_THAT(found.conditions, SizeIs(1));
   const CorrectionCondition& condition = found.conditions[0];

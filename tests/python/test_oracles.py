@@ -32,7 +32,7 @@ def ask(script: str, question: object) -> Any:
     if not PYTHON.exists():
         pytest.skip("script/oracles has not been run")
     command = [str(PYTHON), str(ROOT / "tests/oracles" / script)]
-    done = subprocess.run(command, input=json.dumps(question), capture_output=True, text=True, check=True, timeout=600)
+    done = subprocess.run(command, input=json.dumps(question), capture_output=True, text=True, check=True, timeout=1800)
     return json.loads(done.stdout)
 
 
