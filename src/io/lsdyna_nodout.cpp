@@ -23,7 +23,7 @@
 namespace crashsim::io {
 namespace {
 
-constexpr std::size_t kNone = std::size_t(-1);
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr std::size_t kMostColumns = 32;  // bits of Row::wanted
 
 /// Blocks with the same columns: those of translations, those of rotations.

@@ -50,7 +50,7 @@ class LsdynaSlots {
   void warn(TraceSet& set) const;
 
  private:
-  static constexpr std::size_t kNone = std::size_t(-1);
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   [[nodiscard]] bool learning() const { return states_ == nullptr; }
   [[nodiscard]] std::size_t find(LsdynaSlot slot) const;
