@@ -25,7 +25,8 @@ constexpr double kQuiet_mps2 = 0.5 * kStandardGravity;
 template <class Iterator>
 void run_section(Iterator first, std::size_t count, const CfcCoefficients& c) {
   const std::size_t start = std::min(kStartSamples, count);
-  const double level = std::accumulate(first, first + static_cast<std::ptrdiff_t>(start), 0.0) / double(start);
+  const double level =
+      std::accumulate(first, first + static_cast<std::ptrdiff_t>(start), 0.0) / static_cast<double>(start);
   double x1 = first[1], x2 = first[0], y1 = level, y2 = level;
   first[0] = first[1] = level;
   for (Iterator at = first + 2, end = first + static_cast<std::ptrdiff_t>(count); at != end; ++at) {

@@ -292,7 +292,7 @@ CRASHSIM_INLINE void sum_moments(const FitPiece& piece, const FitSamples& sample
   for (std::size_t first = 0; first < kColumnLanes; first += W) {
     D loss = D{}, a[kFeatures];
 #pragma GCC unroll 6
-    for (std::size_t i = 0; i < kFeatures; ++i) a[i] = D{};
+    for (D& sum : a) sum = D{};
     D x[kFitDegree + 1], v[kFitDegree + 1];
 #pragma GCC unroll 16
     for (int n = 0; n <= kFitDegree; ++n) x[n] = v[n] = D{};

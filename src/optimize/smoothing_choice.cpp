@@ -75,8 +75,8 @@ using Places = std::vector<Place>;
 /// The criterion as a function of the weight.
 class Criterion {
  public:
-  Criterion(const EquationErrorSystem& system, const Eigen::VectorXd& upper, Smoothing rule, double inflation)
-      : small_(reduce(system)), upper_(upper), rule_(rule), inflation_(inflation) {
+  Criterion(const EquationErrorSystem& system, Eigen::VectorXd upper, Smoothing rule, double inflation)
+      : small_(reduce(system)), upper_(std::move(upper)), rule_(rule), inflation_(inflation) {
     const double size = small_.roughness.norm();
     balance_ = size > 0.0 ? small_.rows.norm() / size : 1.0;
     small_.roughness *= balance_;

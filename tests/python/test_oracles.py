@@ -98,7 +98,9 @@ def motion(seed: int) -> dict[str, Any]:
     """A pulse that stops a car within the record, at rest at its ends."""
     random = np.random.default_rng(seed)
     time = np.arange(2001) * DT
-    accel = crash(time, random) * (1 - np.exp(-time / 0.002)) * np.where(time < 0.15, np.cos(np.pi * time / 0.3) ** 2, 0)
+    accel = (
+        crash(time, random) * (1 - np.exp(-time / 0.002)) * np.where(time < 0.15, np.cos(np.pi * time / 0.3) ** 2, 0)
+    )
     speed = -0.93 * float(np.trapezoid(accel, time))
     pulse = crashsim.make_pulse(time, accel, impact_speed_mps=speed, mass_kg=1500)
     arrays = ("time_s", "accel_mps2", "velocity_mps", "displacement_m")

@@ -52,7 +52,12 @@ def test_equation_error_is_least_squares_in_the_force(pulses: list[crashsim.Puls
 
 def test_errors_of_accelerometers_are_sought(pulses: list[crashsim.Pulse]) -> None:
     fit = crashsim.identify(
-        pulses, law="crush_damping", starts=2, time_shift_deviation_s="1 ms", gain_deviation=0.03, bias_deviation_mps2=0.0
+        pulses,
+        law="crush_damping",
+        starts=2,
+        time_shift_deviation_s="1 ms",
+        gain_deviation=0.03,
+        bias_deviation_mps2=0.0,
     )
     assert all(0.8 < test.gain < 1.2 and abs(test.time_shift_s) < 5e-3 for test in fit.tests)
     assert all(0.0 < test.gain_error < 0.03 for test in fit.tests)
@@ -75,9 +80,7 @@ def test_uncertainty_has_intervals_replicates_and_bands(
     assert errors.spectrum[0].words
 
 
-def test_uncertainty_refuses_a_fit_of_other_options(
-    pulses: list[crashsim.Pulse], fit: crashsim.Identification
-) -> None:
+def test_uncertainty_refuses_a_fit_of_other_options(pulses: list[crashsim.Pulse], fit: crashsim.Identification) -> None:
     with pytest.raises(crashsim.InvalidInput, match="not those of these 2 pulses and options"):
         crashsim.uncertainty(pulses, fit)
 
@@ -107,9 +110,7 @@ def test_predictions_make_a_table(fit: crashsim.Identification, errors: crashsim
 
 def test_a_model_file_predicts_what_the_program_does(program: str, tmp_path: Path) -> None:
     for speed in (40, 56):
-        crashsim.write_pulse(
-            crashsim.read_pulse(DATA / f"C{speed}.csv", channels=CHANNELS), tmp_path / f"p{speed}.csv"
-        )
+        crashsim.write_pulse(crashsim.read_pulse(DATA / f"C{speed}.csv", channels=CHANNELS), tmp_path / f"p{speed}.csv")
     model = tmp_path / "model.json"
     given = [program, "identify", "p40.csv", "p56.csv", "--law", "crush_damping", "--starts", "4", "-o", "model.json"]
     subprocess.run([*given, "--quiet"], cwd=tmp_path, check=True)
