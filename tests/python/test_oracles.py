@@ -136,7 +136,7 @@ def test_a_real_tests_metrics_are_those_of_the_vectors() -> None:
     assert found.t_m_s * 1e3 == pytest.approx(expected["t_m_ms"], abs=5e-4)
     assert found.kw400_n_per_m / 1e3 == pytest.approx(expected["KW400_N_per_mm"], abs=1e-2)  # its last digit
     assert found.olc_g == pytest.approx(expected["OLC_g"], abs=5e-5)
-    assert found.centroid_s * 1e3 == pytest.approx(expected["centroid_ms"], abs=5e-3)
+    assert found.centroid_s * 1e3 == pytest.approx(expected["centroid_ms"], abs=1e-2)
     assert found.energy_j / 1e3 == pytest.approx(expected["KE0_kJ"], abs=5e-4)
     balance = crashsim.motion_balance(pulse)
     assert found.energy_j * balance.work_ratio / 1e3 == pytest.approx(expected["E_at_C_kJ"], abs=5e-3)
