@@ -25,7 +25,7 @@ void bind_rows(py::module_& module) {
       .field("t_m_error", &LeftOutTest::t_m_error, "Predicted / measured - 1; infinite when it is not reached.");
   left_out.def_property_readonly("failed", &LeftOutTest::failed, "Not predicted, or without t_m.")
       .def_property_readonly("score", &LeftOutTest::score,
-                             "E + |error of maximum crush| + |error of t_m|; infinite when it failed.");
+                             "E plus the sizes of the errors of maximum crush and t_m; infinite when it failed.");
   using R = SelectionRow;
   ValueClass<R>(module, "SelectionRow", "One model that was tried.")
       .field("name", &R::name, "'crush_damping 7+1', with placement and curve where these are not the default.")
