@@ -42,6 +42,9 @@ Prepared prepare(const TraceSet& traces, const PulseOptions& pulse) {
   if (out.raw.dimension != Dimension::acceleration)
     throw InvalidInput(fmt::format("{}: channel {} measures {}: corrections are for accelerometers", traces.path,
                                    out.raw.channels.front().label, dimension_name(out.raw.dimension)));
+  for (const PulseChannel& channel : out.raw.channels)
+    if (std::all_of(channel.values.begin(), channel.values.end(), [](double v) { return v == 0.0; }))
+      throw InvalidInput(fmt::format("{}: channel {} is zero throughout: leave it out", traces.path, channel.label));
   out.time_zero_s = set_zero(out.raw, pulse, traces.path);
   out.impact_speed_mps = std::isnan(pulse.impact_speed_mps) ? traces.impact_speed_mps : pulse.impact_speed_mps;
   out.mass_kg = std::isnan(pulse.mass_kg) ? traces.mass_kg : pulse.mass_kg;

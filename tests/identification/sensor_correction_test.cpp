@@ -339,6 +339,8 @@ INSTANTIATE_TEST_SUITE_P(
                             "fewer than 20 samples between 0.149 and 0.15 s after impact"},
                     Refused{"gain_too_wide", [](Set, Read, How how) { how.gain_sd = 0.5; },
                             "SensorCorrectionOptions.gain_sd = 0.5: must be >= 0 and <= 0.09"},
+                    Refused{"zero_channel", [](Set set, Read, How) { set.traces[1].values.assign(501, 0.0); },
+                            "made-up: channel 2 SENSOR 2 is zero throughout: leave it out"},
                     Refused{"no_accelerometer",
                             [](Set set, Read, How) {
                               for (Trace& trace : set.traces) trace.dimension = Dimension::speed;
