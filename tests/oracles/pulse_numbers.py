@@ -86,9 +86,11 @@ def butterworth(cutoff: float, dt: float) -> tuple[Array, Array]:
 
 
 def asi_2010(m: dict[str, Array]) -> float:
-    """CFC180 of SAE J211, then 13 Hz; curves that begin and end at rest need no care at their ends."""
-    dt = m["time_s"][1] - m["time_s"][0]
-    clean = twice_filtered(m["accel_mps2"], *butterworth(180 * 2.0775, dt))
+    """CFC180 of SAE J211 with ends mirrored oddly over 10 ms, then 13 Hz with ends held for half a second."""
+    dt, x = m["time_s"][1] - m["time_s"][0], m["accel_mps2"]
+    n = round(0.01 / dt)
+    mirrored = np.concatenate([2 * x[0] - x[n:0:-1], x, 2 * x[-1] - x[-2 : -n - 2 : -1]])
+    clean = twice_filtered(mirrored, *butterworth(180 * 2.0775, dt))[n:-n]
     rest = round(0.5 / dt)
     padded = np.concatenate([np.full(rest, clean[0]), clean, np.full(rest, clean[-1])])
     smooth = twice_filtered(padded, *butterworth(13 * 1.25, dt))[rest:-rest]
